@@ -49,7 +49,7 @@ struct Curvatures {
   std::vector<double> ik1;     ///< Eq. 13. 0 on the border.
   std::vector<double> ik2;     ///< Variant with the denominator of eq. 12. 0 on the border.
   std::vector<double> ikabs;   ///< Eq. 14 by the chosen pairing, never below 0.
-  std::vector<float> beta;     ///< Per edge: IHe (eq. 11), radians, convex positive; 0 on the border.
+  std::vector<float> beta;  ///< Per edge: IHe (eq. 11), radians, convex positive; 0 on the border.
   std::vector<Shape> shape;
 
   /// Principal curvatures below this count as zero in `shape`, 1/mm.
@@ -79,8 +79,8 @@ double edge_mean_curvature(const Mesh& mesh, const Curvatures& curvatures, EdgeI
 /// Radius in mm that a value of Kabs reads as, on a cylinder (Kabs = 1/r^2). Infinite for 0.
 double cylinder_radius(double kabs);
 
-/// TV_IK from TV_IH (figure 27): the IKabs of a vertex on a straight sharp edge whose exterior angle
-/// is `angle` radians, 9 angle^2 / pi^2.
+/// TV_IK from TV_IH (figure 27): the IKabs of a vertex on a straight sharp edge whose exterior
+/// angle is `angle` radians, 9 angle^2 / pi^2.
 double ikabs_of_straight_edge(double angle);
 
 /// Interior angle of the triangle p, a, b at p, in radians, by atan2 (exact to rounding at any

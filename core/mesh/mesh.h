@@ -54,8 +54,8 @@ using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 class Mesh {
  public:
   /// Builds the half-edge structure.
-  /// Errors: an index out of range, a repeated vertex in a face, an edge with more than two faces or
-  /// run through twice in one direction, a vertex whose faces do not form one fan. Call
+  /// Errors: an index out of range, a repeated vertex in a face, an edge with more than two faces
+  /// or run through twice in one direction, a vertex whose faces do not form one fan. Call
   /// build_mesh() for data that may have such faults.
   static Result<std::shared_ptr<const Mesh>> create(std::vector<Point> points,
                                                     std::vector<Triangle> triangles);
@@ -95,9 +95,7 @@ class Mesh {
   }
   /// The two faces of an edge; no_id where the scan ends. The first is left of half-edge 2e.
   std::array<FaceId, 2> edge_faces(EdgeId e) const { return {face(2 * e), face(2 * e + 1)}; }
-  bool is_border_edge(EdgeId e) const {
-    return face(2 * e) == no_id || face(2 * e + 1) == no_id;
-  }
+  bool is_border_edge(EdgeId e) const { return face(2 * e) == no_id || face(2 * e + 1) == no_id; }
   /// True for a vertex on the free border. False for an isolated vertex.
   bool is_border(VertexId v) const {
     const HalfEdgeId h = half_edge(v);
@@ -122,9 +120,7 @@ class Mesh {
   /// The face with these three vertices in any order, if the mesh has it.
   std::optional<FaceId> find_face(const Triangle& vertices) const;
 
-  double edge_length(EdgeId e) const {
-    return (point(edges_[e][1]) - point(edges_[e][0])).norm();
-  }
+  double edge_length(EdgeId e) const { return (point(edges_[e][1]) - point(edges_[e][0])).norm(); }
   double mean_edge_length() const { return mean_edge_length_; }
   /// Corners of the bounding box of the vertices that belong to a face.
   const Point& box_min() const { return box_min_; }

@@ -12,13 +12,14 @@ namespace arris {
 
 /// A mesh file as it stands: points and polygons in the order of the file, nothing mended.
 struct PolygonFile {
-  std::string format;                 ///< "STL (binary)", "STL (ASCII)", "PLY", "OBJ", "OFF".
-  std::vector<Point> points;          ///< STL: welded where coordinates are equal.
-  std::vector<std::uint64_t> starts;  ///< Polygon k is corners[starts[k]] .. corners[starts[k+1]-1].
-  std::vector<VertexId> corners;      ///< Indices into points; each is in range.
-  std::uint64_t welded_corners = 0;   ///< STL: corners that were joined with an earlier one.
-  std::string content_hash;           ///< Of the file's bytes (Hasher).
-  std::uint64_t bytes = 0;            ///< Size of the file.
+  std::string format;         ///< "STL (binary)", "STL (ASCII)", "PLY", "OBJ", "OFF".
+  std::vector<Point> points;  ///< STL: welded where coordinates are equal.
+  std::vector<std::uint64_t>
+      starts;                        ///< Polygon k is corners[starts[k]] .. corners[starts[k+1]-1].
+  std::vector<VertexId> corners;     ///< Indices into points; each is in range.
+  std::uint64_t welded_corners = 0;  ///< STL: corners that were joined with an earlier one.
+  std::string content_hash;          ///< Of the file's bytes (Hasher).
+  std::uint64_t bytes = 0;           ///< Size of the file.
 
   std::size_t polygon_count() const { return starts.empty() ? 0 : starts.size() - 1; }
 };

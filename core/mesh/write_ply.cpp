@@ -1,1 +1,275 @@
+#include "core/mesh/write_ply.h"
 
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/mesh/within_memory.h"
+
+namespace arris {
+
+namespace {
+
+std::string system_reason() { return std::strerror(errno); }
+
+/// A file made beside its place; removed again unless it was put there.
+class NewFile {
+ public:
+  NewFile() = default;
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+
+  bool create(const std::filesystem::path& folder) {
+    static std::atomic<unsigned> serial = 0;
+    for (int tries = 0; tries < 100; ++tries) {
+      const std::string name = (folder / (".arris-" + std::to_string(::getpid()) + "-" +
+                                          std::to_string(serial++) + ".part"))
+                                   .string();
+      descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ >= 0) {
+        name_ = name;
+        return true;
+      }
+      if (errno != EEXIST) return false;
+    }
+    return false;
+  }
+
+  /// Writes all of it and waits until the disk has it.
+  bool write(std::string_view content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (::fsync(descriptor_) != 0) return false;
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    return ::close(descriptor) == 0;
+  }
+
+  void set_mode(mode_t mode) { ::fchmod(descriptor_, mode & 07777); }
+
+  bool rename_to(const std::string& path) {
+    if (::rename(name_.c_str(), path.c_str()) != 0) return false;
+    name_.clear();
+    return true;
+  }
+
+ private:
+  int descriptor_ = -1;
+  std::string name_;
+};
+
+/// The renaming itself lives in the folder; some file systems cannot be asked to wait for it.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+template <class T>
+void append(std::string& out, T value) {
+  std::array<char, sizeof(T)> raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+  out.append(raw.data(), raw.size());
+}
+
+/// The cast alone is undefined beyond the largest float.
+float to_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::abs(x) > largest) return std::copysign(std::numeric_limits<float>::infinity(), x);
+  return static_cast<float>(x);
+}
+
+bool is_float(double x) { return std::isnan(x) || static_cast<double>(to_float(x)) == x; }
+
+bool are_floats(std::span<const Point> points) {
+  return std::all_of(points.begin(), points.end(), [](const Point& p) {
+    return is_float(p.x()) && is_float(p.y()) && is_float(p.z());
+  });
+}
+
+std::string header_begin(std::span<const Point> points, bool floats) {
+  const std::string type = floats ? "float" : "double";
+  return "ply\nformat binary_little_endian 1.0\ncomment written by Arris\nelement vertex " +
+         std::to_string(points.size()) + "\nproperty " + type + " x\nproperty " + type +
+         " y\nproperty " + type + " z\n";
+}
+
+void append_point(std::string& out, const Point& point, bool floats) {
+  for (const double x : point)
+    if (floats)
+      append(out, to_float(x));
+    else
+      append(out, x);
+}
+
+void append_triangle(std::string& out, const Triangle& triangle) {
+  append(out, std::uint8_t{3});
+  for (const VertexId v : triangle) append(out, v);
+}
+
+double area(const Mesh& mesh, FaceId f) {
+  const auto& [a, b, c] = mesh.triangle(f);
+  return 0.5 * (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a)).norm();
+}
+
+/// One label per polygon of the file.
+std::vector<std::uint32_t> polygon_labels(const Scan& scan,
+                                          const std::vector<std::uint32_t>& face_labels,
+                                          std::size_t polygon_count) {
+  std::vector<std::uint32_t> result(polygon_count, 0);
+  std::vector<std::pair<std::uint32_t, double>> areas;  // by label, of one polygon
+  for (FaceId begin = 0; begin < face_labels.size();) {
+    const std::uint32_t polygon = scan.source_faces[begin];
+    areas.clear();
+    FaceId end = begin;
+    for (; end < face_labels.size() && scan.source_faces[end] == polygon; ++end)
+      areas.emplace_back(face_labels[end], area(*scan.mesh, end));
+    begin = end;
+    std::stable_sort(areas.begin(), areas.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    double largest = -1.0;
+    for (std::size_t i = 0; i < areas.size();) {
+      const std::uint32_t label = areas[i].first;
+      double sum = 0.0;
+      for (; i < areas.size() && areas[i].first == label; ++i) sum += areas[i].second;
+      // The halves of a square tie, whatever rounding makes of them.
+      if (largest < 0.0 || sum > largest * (1.0 + 1e-9)) {
+        largest = sum;
+        result[polygon] = label;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<void> write_file_whole(const std::string& path, const std::string& content) {
+  // A link keeps pointing to its file: that file is replaced, not the link.
+  std::filesystem::path target = path;
+  std::error_code ignored;  // an absent file is no error here, and what else is wrong shows below
+  if (std::filesystem::is_symlink(target, ignored)) {
+    const std::filesystem::path file = std::filesystem::weakly_canonical(target, ignored);
+    if (!ignored) target = file;
+  }
+  if (target.filename().empty())
+    return fail(path + " cannot be written: it is not the name of a file.");
+  struct stat existing {};
+  const bool exists = ::stat(target.c_str(), &existing) == 0;
+  if (exists && S_ISDIR(existing.st_mode))
+    return fail(path + " cannot be written: it is a directory.");
+  if (exists && !S_ISREG(existing.st_mode))
+    return fail(path + " cannot be written: it is not an ordinary file.");
+  if (exists && ::access(target.c_str(), W_OK) != 0)
+    return fail(path + " cannot be written: " + system_reason() + ".");
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+
+  NewFile file;
+  if (!file.create(folder)) return fail(path + " cannot be created: " + system_reason() + ".");
+  if (exists) file.set_mode(existing.st_mode);
+  if (!file.write(content)) return fail(path + " cannot be written: " + system_reason() + ".");
+  if (!file.rename_to(target.string()))
+    return fail(path + " cannot be replaced: " + system_reason() + ".");
+  sync_folder(folder);
+  return {};
+}
+
+Result<void> write_ply(const std::string& path, const Mesh& mesh,
+                       const std::vector<VertexProperty>& properties) {
+  const bool floats = are_floats(mesh.points());
+  std::string content = header_begin(mesh.points(), floats);
+  for (const VertexProperty& property : properties) {
+    if (property.name.empty() || property.name.find_first_of(" \t\r\n\v\f") != std::string::npos)
+      return fail(path + " cannot be written: \"" + property.name +
+                  "\" is no name for a PLY property.");
+    if (property.values->size() != mesh.vertex_count())
+      return fail(path + " cannot be written: property " + property.name + " has " +
+                  std::to_string(property.values->size()) + " values for " +
+                  std::to_string(mesh.vertex_count()) + " vertices.");
+    content += "property float " + property.name + "\n";
+  }
+  content += "element face " + std::to_string(mesh.face_count()) +
+             "\nproperty list uchar int vertex_indices\nend_header\n";
+  return within_memory(path, [&] {
+    content.reserve(content.size() + 13 * mesh.face_count() +
+                    mesh.vertex_count() * ((floats ? 12 : 24) + 4 * properties.size()));
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+      append_point(content, mesh.point(v), floats);
+      for (const VertexProperty& property : properties)
+        append(content, to_float((*property.values)[v]));
+    }
+    for (const Triangle& triangle : mesh.triangles()) append_triangle(content, triangle);
+    return write_file_whole(path, content);
+  });
+}
+
+Result<void> write_labelled_scan(const std::string& path, const Scan& scan,
+                                 const std::vector<std::uint32_t>& face_labels) {
+  const Mesh& mesh = *scan.mesh;
+  if (face_labels.size() != mesh.face_count())
+    return fail(path + " cannot be written: there are " + std::to_string(face_labels.size()) +
+                " labels for " + std::to_string(mesh.face_count()) + " faces.");
+  constexpr std::uint32_t most = std::numeric_limits<std::int32_t>::max();
+  if (std::any_of(face_labels.begin(), face_labels.end(),
+                  [](std::uint32_t label) { return label > most; }))
+    return fail(path + " cannot be written: a label is larger than " + std::to_string(most) + ".");
+  return within_memory(path, [&] {
+    const PolygonFile* const file = scan.file.get();
+    const std::span<const Point> points =
+        file ? std::span<const Point>(file->points) : mesh.points();
+    const std::size_t polygon_count = file ? file->polygon_count() : mesh.face_count();
+    bool long_lists = false;  // more corners than a uchar counts
+    for (std::size_t k = 0; file && k < polygon_count; ++k)
+      long_lists = long_lists || file->starts[k + 1] - file->starts[k] > 255;
+
+    const bool floats = are_floats(points);
+    std::string content = header_begin(points, floats);
+    content += "element face " + std::to_string(polygon_count) + "\nproperty list " +
+               (long_lists ? "uint" : "uchar") +
+               " int vertex_indices\nproperty int partition\nend_header\n";
+    content.reserve(content.size() + points.size() * (floats ? 12 : 24) +
+                    polygon_count * (long_lists ? 8 : 5) +
+                    4 * (file ? file->corners.size() : 3 * mesh.face_count()));
+    for (const Point& point : points) append_point(content, point, floats);
+    if (!file) {
+      for (FaceId f = 0; f < mesh.face_count(); ++f) {
+        append_triangle(content, mesh.triangle(f));
+        append(content, face_labels[f]);
+      }
+      return write_file_whole(path, content);
+    }
+    const std::vector<std::uint32_t> labels = polygon_labels(scan, face_labels, polygon_count);
+    for (std::size_t k = 0; k < polygon_count; ++k) {
+      const std::uint64_t begin = file->starts[k], end = file->starts[k + 1];
+      if (long_lists)
+        append(content, static_cast<std::uint32_t>(end - begin));
+      else
+        append(content, static_cast<std::uint8_t>(end - begin));
+      for (std::uint64_t c = begin; c < end; ++c) append(content, file->corners[c]);
+      append(content, labels[k]);
+    }
+    return write_file_whole(path, content);
+  });
+}
+
+}  // namespace arris

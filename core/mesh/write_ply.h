@@ -20,8 +20,8 @@ struct VertexProperty {
 /// then renamed). Errors: cannot create, write or rename, with the path and the system's reason.
 Result<void> write_file_whole(const std::string& path, const std::string& content);
 
-/// Binary little-endian PLY of a mesh with vertex properties. Coordinates are written as float where
-/// every one of them is a float, else as double.
+/// Binary little-endian PLY of a mesh with vertex properties. Coordinates are written as float
+/// where every one of them is a float, else as double.
 Result<void> write_ply(const std::string& path, const Mesh& mesh,
                        const std::vector<VertexProperty>& properties);
 

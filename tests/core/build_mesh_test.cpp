@@ -1,1 +1,451 @@
+#include "core/mesh/build_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/mesh/scan.h"
+#include "tests/support/meshes.h"
+
+namespace arris {
+namespace {
+
+using Polygons = std::vector<std::vector<VertexId>>;
+
+struct Built {
+  MeshPtr mesh;
+  std::vector<std::uint32_t> source_faces;
+  LoadReport report;
+
+  /// The vertex of the file that vertex v of the mesh is, or is a copy of.
+  VertexId original(VertexId v) const {
+    return v < report.file_vertices ? v : report.copies[v - report.file_vertices];
+  }
+};
+
+PolygonFile file_of(const std::vector<Point>& points, const Polygons& polygons) {
+  PolygonFile file;
+  file.points = points;
+  file.starts.push_back(0);
+  for (const std::vector<VertexId>& polygon : polygons) {
+    file.corners.insert(file.corners.end(), polygon.begin(), polygon.end());
+    file.starts.push_back(file.corners.size());
+  }
+  return file;
+}
+
+/// Builds, and checks what must hold of every result.
+Built build(const std::vector<Point>& points, const Polygons& polygons) {
+  const PolygonFile file = file_of(points, polygons);
+  Built built;
+  Result<BuiltMesh> result = build_mesh(file.points, file.starts, file.corners, built.report);
+  if (!result) throw std::runtime_error(result.error().message);
+  built.mesh = result->mesh;
+  built.source_faces = result->source_faces;
+
+  const LoadReport& report = built.report;
+  EXPECT_EQ(report.file_vertices, points.size());
+  EXPECT_EQ(report.file_faces, polygons.size());
+  EXPECT_EQ(report.vertices, built.mesh->vertex_count());
+  EXPECT_EQ(report.vertices, points.size() + report.copies.size());
+  EXPECT_EQ(report.faces, built.mesh->face_count());
+  EXPECT_EQ(report.edges, built.mesh->edge_count());
+  EXPECT_EQ(built.source_faces.size(), built.mesh->face_count());
+  EXPECT_TRUE(std::is_sorted(built.source_faces.begin(), built.source_faces.end()));
+  EXPECT_TRUE(report.left_out_faces.empty());
+  EXPECT_EQ(report.clean(), report.sentences().empty());
+  for (VertexId v = 0; v < built.mesh->vertex_count(); ++v) {
+    const Point& mine = built.mesh->point(v);
+    const Point& theirs = points[built.original(v)];
+    EXPECT_TRUE(mine == theirs || !theirs.allFinite());
+  }
+  for (FaceId f = 0; f < built.mesh->face_count(); ++f) {
+    const std::vector<VertexId>& polygon = polygons[built.source_faces[f]];
+    for (const VertexId v : built.mesh->triangle(f))
+      EXPECT_NE(std::find(polygon.begin(), polygon.end(), built.original(v)), polygon.end());
+  }
+  return built;
+}
+
+Polygons polygons_of(const std::vector<Triangle>& triangles) {
+  Polygons polygons;
+  for (const Triangle& t : triangles) polygons.push_back({t[0], t[1], t[2]});
+  return polygons;
+}
+
+bool says(const LoadReport& report, const std::string& text) {
+  for (const std::string& sentence : report.sentences())
+    if (sentence.find(text) != std::string::npos) return true;
+  return false;
+}
+
+double area_of(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles())
+    sum += 0.5 * (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a)).norm();
+  return sum;
+}
+
+const std::vector<Point> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+TEST(BuildMesh, AMeshWithoutFaultsIsKeptToTheLetter) {
+  for (const testing::Triangles& t : {testing::icosphere(1.0, 2), testing::block_with_holes(2),
+                                      testing::cylinder_wall(1, 2, 12, 5)}) {
+    const Built built = build(t.points, polygons_of(t.triangles));
+    EXPECT_TRUE(built.report.clean());
+    EXPECT_TRUE(built.report.sentences().empty());
+    EXPECT_EQ(built.mesh->triangles(), t.triangles);
+    EXPECT_EQ(built.report.components, 1u);
+  }
+}
+
+TEST(BuildMesh, CountsAreThoseOfTopology) {
+  const auto report = [](const testing::Triangles& t) {
+    return build(t.points, polygons_of(t.triangles)).report;
+  };
+  EXPECT_EQ(report(testing::icosphere(1, 1)).euler_number, 2);
+  EXPECT_EQ(report(testing::torus(3, 1, 12, 8)).euler_number, 0);
+  EXPECT_EQ(report(testing::block_with_holes(3)).euler_number, -4);
+  const LoadReport wall = report(testing::cylinder_wall(1, 2, 12, 5));
+  EXPECT_EQ(wall.euler_number, 0);
+  EXPECT_EQ(wall.border_loops, 2u);
+  EXPECT_EQ(wall.border_edges, 24u);
+}
+
+TEST(BuildMesh, PolygonsAreCutWithoutFlippedTriangles) {
+  EXPECT_EQ(build(square, {{0, 1, 2, 3}}).mesh->triangles(),
+            (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  // An arrow head: only the fans from its tip and from its notch lie inside.
+  const std::vector<Point> arrow{{0, 0, 0}, {2, -2, 0}, {1, 0, 0}, {2, 2, 0}};
+  for (const std::vector<VertexId>& order : Polygons{{0, 1, 2, 3}, {1, 2, 3, 0}, {3, 0, 1, 2}}) {
+    const Built built = build(arrow, {order});
+    EXPECT_EQ(built.mesh->face_count(), 2u);
+    EXPECT_NEAR(area_of(*built.mesh), 2.0, 1e-12);
+    EXPECT_EQ(built.report.split_polygons, (std::vector<std::uint32_t>{0}));
+    EXPECT_TRUE(says(built.report, "1 polygon had more than three corners"));
+  }
+  // A corner in the middle of a side: no triangle needs to be without area.
+  const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  EXPECT_TRUE(build(points, {{0, 1, 2, 3, 4}}).report.zero_area_faces.empty());
+}
+
+TEST(BuildMesh, AHugePolygonDoesNotTakeForever) {
+  // A star, so that no fan is without flipped triangles.
+  std::vector<Point> points;
+  std::vector<VertexId> polygon;
+  constexpr int corners = 200000;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners, radius = k % 2 ? 1.0 : 2.0;
+    points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    polygon.push_back(static_cast<VertexId>(k));
+  }
+  const PolygonFile file = file_of(points, {polygon});
+  LoadReport report;
+  ASSERT_TRUE(build_mesh(file.points, file.starts, file.corners, report));
+  EXPECT_EQ(report.faces, corners - 2u);
+}
+
+TEST(BuildMesh, FacesWithoutThreeVerticesAreLeftOut) {
+  const Built built = build(square, {{0, 1, 1}, {}, {2}, {0, 1}, {0, 1, 2}, {0, 2, 3, 3}});
+  EXPECT_EQ(built.report.degenerate_faces, (std::vector<std::uint32_t>{0, 1, 2, 3, 5}));
+  EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(built.source_faces, (std::vector<std::uint32_t>{4, 5}));
+  EXPECT_FALSE(built.report.clean());
+  EXPECT_TRUE(says(built.report, "5 faces had a repeated vertex"));
+}
+
+TEST(BuildMesh, FacesWithoutAreaAreKeptAndTold) {
+  std::vector<Point> points = square;
+  points.push_back({0.5, 0, 0});
+  const Built built = build(points, {{4, 1, 2}, {4, 2, 3}, {4, 3, 0}, {0, 1, 4}});
+  EXPECT_EQ(built.mesh->face_count(), 4u);
+  EXPECT_EQ(built.report.zero_area_faces, (std::vector<std::uint32_t>{3}));
+  EXPECT_TRUE(says(built.report, "1 face has no area"));
+}
+
+TEST(BuildMesh, DuplicateFacesAreLeftOut) {
+  const Built built = build(square, {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {3, 2, 0}, {0, 2, 1}});
+  EXPECT_EQ(built.report.duplicate_faces, (std::vector<std::uint32_t>{1, 3, 4}));
+  EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_TRUE(built.report.non_manifold_edges.empty());
+  // Squares that would be cut along different diagonals are the same face too.
+  const Built squares = build(square, {{0, 1, 2, 3}, {1, 2, 3, 0}, {3, 2, 1, 0}});
+  EXPECT_EQ(squares.report.duplicate_faces, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(squares.mesh->face_count(), 2u);
+}
+
+TEST(BuildMesh, NonFinitePointsKeepTheirIdsAndLoseTheirFaces) {
+  testing::Triangles t = testing::icosphere(1.0, 1);
+  t.points[5].y() = std::numeric_limits<double>::quiet_NaN();
+  const Built built = build(t.points, polygons_of(t.triangles));
+  EXPECT_EQ(built.report.non_finite_vertices, (std::vector<std::uint32_t>{5}));
+  EXPECT_EQ(built.report.isolated_vertices, (std::vector<std::uint32_t>{5}));
+  for (std::uint32_t f = 0; f < t.triangles.size(); ++f) {
+    const bool uses = std::count(t.triangles[f].begin(), t.triangles[f].end(), 5u) > 0;
+    EXPECT_EQ(std::count(built.report.non_finite_faces.begin(), built.report.non_finite_faces.end(),
+                         f) > 0,
+              uses);
+  }
+  EXPECT_EQ(built.report.border_loops, 1u) << "where the faces were";
+  EXPECT_TRUE(built.mesh->box_max().allFinite());
+  EXPECT_TRUE(says(built.report, "1 vertex has a coordinate that is not a finite number (5)"));
+}
+
+TEST(BuildMesh, IsolatedVerticesAreKept) {
+  const Built built = build(square, {{0, 1, 3}});
+  EXPECT_EQ(built.report.isolated_vertices, (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(built.mesh->vertex_count(), 4u);
+  EXPECT_EQ(built.report.euler_number, 1);
+  EXPECT_TRUE(says(built.report, "1 vertex belongs to no face"));
+}
+
+TEST(BuildMesh, ThreeFansOnOneEdgeAreCutOpen) {
+  const std::vector<Point> points{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+  const Built built = build(points, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}});
+  EXPECT_EQ(built.report.non_manifold_edges, (std::vector<EdgeVertices>{{0, 1}}));
+  EXPECT_EQ(built.report.components, 3u);
+  EXPECT_EQ(built.mesh->triangle(0), (Triangle{0, 1, 2})) << "the first keeps the vertices";
+  EXPECT_EQ(built.report.non_manifold_vertices, (std::vector<VertexId>{0, 1}));
+  EXPECT_EQ(built.report.copies, (std::vector<VertexId>{0, 1, 1, 0}));
+  EXPECT_TRUE(says(built.report, "1 edge had more than two faces and was cut open (0-1)."));
+}
+
+TEST(BuildMesh, AFinOnASheetIsCutOffAndTheSheetStaysWhole) {
+  testing::Triangles t = testing::noisy_plane(1.0, 0.25, 0.0, 0.0, 1);
+  const MeshPtr kept = testing::mesh_of(t);
+  const Mesh& sheet = *kept;
+  EdgeId inner = 0;
+  while (sheet.is_border(sheet.edge(inner)[0]) || sheet.is_border(sheet.edge(inner)[1])) ++inner;
+  const auto [a, b] = sheet.edge(inner);
+  const VertexId tip = static_cast<VertexId>(t.points.size());
+  Polygons polygons = polygons_of(t.triangles);
+  polygons.push_back({a, b, tip});
+  t.points.push_back(t.points[a] + Point(0, 0, 1));
+  const Built built = build(t.points, polygons);
+  EXPECT_EQ(built.report.non_manifold_edges, (std::vector<EdgeVertices>{{a, b}}));
+  EXPECT_EQ(built.report.components, 2u);
+  EXPECT_EQ(built.report.border_edges, sheet.border_edge_count() + 3);
+  EXPECT_TRUE(std::equal(t.triangles.begin(), t.triangles.end(), built.mesh->triangles().begin()));
+}
+
+TEST(BuildMesh, ABowTieIsSplit) {
+  const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+  const Built built = build(points, {{1, 2, 0}, {3, 4, 0}});
+  EXPECT_EQ(built.report.non_manifold_vertices, (std::vector<VertexId>{0}));
+  EXPECT_EQ(built.report.copies, (std::vector<VertexId>{0}));
+  EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{1, 2, 0}, {3, 4, 5}}));
+  EXPECT_TRUE(built.report.non_manifold_edges.empty());
+  EXPECT_TRUE(says(built.report,
+                   "1 vertex joined more than one fan of faces and was split (0); "
+                   "1 copy was added"));
+}
+
+TEST(BuildMesh, FlippedFacesAreTurnedToTheMajority) {
+  const testing::Triangles sphere = testing::icosphere(1.0, 2);
+  std::vector<Triangle> triangles = sphere.triangles;
+  // The first face is among them: the seed of the walk has no say.
+  const std::vector<std::uint32_t> flipped{0, 17, 18, 200};
+  for (const std::uint32_t f : flipped) std::swap(triangles[f][1], triangles[f][2]);
+  const Built built = build(sphere.points, polygons_of(triangles));
+  EXPECT_EQ(built.report.turned_faces, flipped);
+  EXPECT_EQ(built.report.border_edges, 0u);
+  EXPECT_FALSE(built.report.looks_inside_out);
+  EXPECT_EQ(built.mesh->triangles(), sphere.triangles);
+  EXPECT_TRUE(
+      says(built.report, "4 faces ran against their neighbours and were turned round (first: 0)"));
+}
+
+TEST(BuildMesh, AMoebiusStripIsCutOnce) {
+  for (const int steps : {5, 12, 13}) {
+    for (const int rows : {1, 3}) {
+      std::vector<Point> points;
+      Polygons polygons;
+      const auto id = [&](int step, int row) {
+        if (step == steps) {
+          step = 0;
+          row = rows - row;
+        }
+        return static_cast<VertexId>(step * (rows + 1) + row);
+      };
+      for (int step = 0; step < steps; ++step)
+        for (int row = 0; row <= rows; ++row) {
+          const double u = 2 * std::numbers::pi * step / steps, w = double(row) / rows - 0.5;
+          const double r = 2 + w * std::cos(u / 2);
+          points.push_back({r * std::cos(u), r * std::sin(u), w * std::sin(u / 2)});
+        }
+      for (int step = 0; step < steps; ++step)
+        for (int row = 0; row < rows; ++row) {
+          polygons.push_back({id(step, row), id(step + 1, row), id(step + 1, row + 1)});
+          polygons.push_back({id(step, row), id(step + 1, row + 1), id(step, row + 1)});
+        }
+      const Built built = build(points, polygons);
+      EXPECT_EQ(built.mesh->face_count(), polygons.size());
+      EXPECT_FALSE(built.report.unorientable_edges.empty());
+      EXPECT_TRUE(built.report.non_manifold_edges.empty());
+      EXPECT_EQ(built.report.components, 1u);
+      EXPECT_EQ(built.report.euler_number, 1) << "cut open it is a disc";
+      EXPECT_EQ(built.report.border_loops, 1u);
+      EXPECT_TRUE(says(built.report, "cannot be oriented"));
+    }
+  }
+}
+
+TEST(BuildMesh, InsideOutIsToldAndNotMended) {
+  testing::Triangles t = testing::cube();
+  for (Triangle& triangle : t.triangles) std::swap(triangle[1], triangle[2]);
+  const Built built = build(t.points, polygons_of(t.triangles));
+  EXPECT_TRUE(built.report.looks_inside_out);
+  EXPECT_EQ(built.mesh->triangles(), t.triangles);
+  EXPECT_TRUE(built.report.turned_faces.empty());
+  EXPECT_TRUE(says(built.report, "inside out"));
+
+  // A hollow in a larger body faces inwards and is right to do so.
+  testing::Triangles body = testing::divided_cube(4.0, 2);
+  const VertexId offset = static_cast<VertexId>(body.points.size());
+  for (const Point& p : t.points) body.points.push_back(p + Point(1, 1, 1));
+  for (const Triangle& f : t.triangles)
+    body.triangles.push_back({f[0] + offset, f[1] + offset, f[2] + offset});
+  EXPECT_TRUE(build(body.points, polygons_of(body.triangles)).report.clean());
+
+  // An open surface has no inside.
+  t.triangles.pop_back();
+  EXPECT_FALSE(build(t.points, polygons_of(t.triangles)).report.looks_inside_out);
+}
+
+TEST(BuildMesh, NoFaceLeftIsAnError) {
+  LoadReport report;
+  report.file = "part.off";
+  const PolygonFile file = file_of(square, {{0, 1, 1}, {2, 2}});
+  const Result<BuiltMesh> built = build_mesh(file.points, file.starts, file.corners, report);
+  ASSERT_FALSE(built);
+  EXPECT_TRUE(built.error().message.starts_with("part.off has no face that can be used"));
+  EXPECT_FALSE(build_mesh({}, {}, {}, report));
+}
+
+TEST(BuildMesh, StopsWhenAskedTo) {
+  std::stop_source stop;
+  stop.request_stop();
+  LoadReport report;
+  const PolygonFile file = file_of(square, {{0, 1, 2}});
+  const Result<BuiltMesh> built =
+      build_mesh(file.points, file.starts, file.corners, report, Context({}, stop.get_token()));
+  ASSERT_FALSE(built);
+  EXPECT_TRUE(built.error().cancelled);
+}
+
+/// Whatever the faces, a mesh comes out that has each distinct triangle once.
+TEST(BuildMesh, AnySoupOfTrianglesCanBeHeld) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 4000; ++round) {
+    const std::uint32_t vertices = 3 + random() % 10, faces = 1 + random() % 40;
+    std::vector<Point> points;
+    for (std::uint32_t v = 0; v < vertices; ++v)
+      points.push_back({double(random() % 8), double(random() % 8), double(random() % 8)});
+    Polygons polygons;
+    std::set<std::set<VertexId>> distinct;
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      polygons.push_back({static_cast<VertexId>(random() % vertices),
+                          static_cast<VertexId>(random() % vertices),
+                          static_cast<VertexId>(random() % vertices)});
+      const std::set<VertexId> corners(polygons.back().begin(), polygons.back().end());
+      if (corners.size() == 3) distinct.insert(corners);
+    }
+    if (distinct.empty()) continue;
+    const Built built = build(points, polygons);
+    std::set<std::set<VertexId>> found;
+    for (const Triangle& t : built.mesh->triangles())
+      found.insert({built.original(t[0]), built.original(t[1]), built.original(t[2])});
+    ASSERT_EQ(found, distinct) << "round " << round;
+    ASSERT_EQ(built.mesh->face_count(), distinct.size());
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+/// A clean surface glued together at random vertices: only what is wrong is touched.
+TEST(BuildMesh, GluedSurfacesComeApartAgain) {
+  std::mt19937 random(11);
+  const testing::Triangles t = testing::icosphere(1.0, 2);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Triangle> triangles = t.triangles;
+    for (int pair = 0; pair < 3; ++pair) {
+      const VertexId a = random() % t.points.size(), b = random() % t.points.size();
+      for (Triangle& f : triangles) std::replace(f.begin(), f.end(), a, b);
+    }
+    const Built built = build(t.points, polygons_of(triangles));
+    EXPECT_EQ(built.mesh->face_count() + built.report.degenerate_faces.size() +
+                  built.report.duplicate_faces.size(),
+              triangles.size());
+    EXPECT_TRUE(built.report.turned_faces.empty() || !built.report.non_manifold_edges.empty());
+  }
+}
+
+TEST(LoadReport, TellsTheWorstFirstWithNumbersOneCanRead) {
+  LoadReport report;
+  EXPECT_TRUE(report.clean());
+  for (std::uint32_t k = 0; k < 1234567; ++k) report.isolated_vertices.push_back(k);
+  for (VertexId k = 0; k < 24; ++k) report.non_manifold_edges.push_back({123 + k, 456 + k});
+  report.turned_faces = {9};
+  report.left_out_faces = {7, 8};
+  EXPECT_FALSE(report.clean());
+  EXPECT_EQ(report.sentences(),
+            (std::vector<std::string>{
+                "2 faces could not be held by the mesh and were left out (first: 7).",
+                "24 edges had more than two faces and were cut open (first: 123-456).",
+                "1 face ran against its neighbours and was turned round (9).",
+                "1,234,567 vertices belong to no face; they were kept and have no quantities "
+                "(first: 0)."}));
+}
+
+TEST(LoadReport, JsonHasEveryCountAndTheBeginningOfEveryList) {
+  LoadReport report;
+  report.file = "na\xFFme.stl";  // not UTF-8
+  report.euler_number = -493;
+  report.looks_inside_out = true;
+  report.non_manifold_edges = {{1, 2}};
+  for (std::uint32_t k = 0; k < 5000; ++k) report.duplicate_faces.push_back(k);
+  const nlohmann::json json = report.to_json();
+  EXPECT_FALSE(json.dump().empty());
+  EXPECT_EQ(json["euler_number"], -493);
+  EXPECT_EQ(json["looks_inside_out"], true);
+  EXPECT_EQ(json["duplicate_faces"]["count"], 5000);
+  EXPECT_EQ(json["duplicate_faces"]["first"].size(), 1000u);
+  EXPECT_EQ(json["non_manifold_edges"]["first"][0], (nlohmann::json{1, 2}));
+  EXPECT_EQ(json["copies"]["count"], 0);
+}
+
+TEST(Scan, KeepsTheFileOnlyWhereTheMeshDiffers) {
+  const auto keeps = [](const std::vector<Point>& points, const Polygons& polygons) {
+    const Result<ScanPtr> scan = make_scan(file_of(points, polygons), "test");
+    return (*scan)->file != nullptr;
+  };
+  EXPECT_FALSE(keeps(square, {{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_FALSE(keeps(square, {{0, 1, 2}})) << "an isolated vertex is in both";
+  EXPECT_TRUE(keeps(square, {{0, 1, 2, 3}}));
+  EXPECT_TRUE(keeps(square, {{0, 1, 2}, {0, 1, 2}}));
+  EXPECT_TRUE(keeps(square, {{0, 1, 2}, {0, 3, 2}})) << "a face was turned";
+  const std::vector<Point> two_by_two{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+  EXPECT_TRUE(keeps(two_by_two, {{1, 2, 0}, {3, 4, 0}}));
+}
+
+TEST(Scan, TheReportNamesTheFile) {
+  PolygonFile file = file_of(square, {{0, 1, 2}, {0, 2, 3}});
+  file.format = "PLY";
+  file.content_hash = "abc";
+  file.bytes = 123;
+  const Result<ScanPtr> scan = make_scan(std::move(file), "part.ply");
+  ASSERT_TRUE(scan);
+  EXPECT_EQ((*scan)->report.file, "part.ply");
+  EXPECT_EQ((*scan)->report.format, "PLY");
+  EXPECT_EQ((*scan)->report.content_hash, "abc");
+  EXPECT_EQ((*scan)->report.file_bytes, 123u);
+  EXPECT_EQ((*scan)->source_faces, (std::vector<std::uint32_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace arris

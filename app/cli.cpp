@@ -1,0 +1,334 @@
+// arris-cli: the core without a window.
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+#include "core/base/number_text.h"
+#include "core/document/document.h"
+#include "core/document/export.h"
+#include "core/document/history.h"
+#include "core/document/journal.h"
+#include "core/mesh/write_ply.h"
+#include "core/samples/mould.h"
+#include "core/sharp_lines/sharp_lines.h"
+
+namespace {
+
+using namespace arris;
+
+constexpr int bad_input = 1;
+constexpr int bad_usage = 2;
+
+double peak_memory_mb() {
+#ifdef _WIN32
+  return 0.0;
+#else
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+#endif
+}
+
+/// Progress on standard error, only where that is a terminal.
+Context progress_context() {
+#ifdef _WIN32
+  if (!_isatty(2)) return {};
+#else
+  if (!isatty(2)) return {};
+#endif
+  return Context([last = -1](double fraction, std::string_view what) mutable {
+    const int percent = static_cast<int>(100.0 * fraction);
+    if (percent == last) return;
+    last = percent;
+    std::fprintf(stderr, "\r%3d %% %-24.*s%s", percent, static_cast<int>(what.size()), what.data(),
+                 percent >= 100 ? "\r                              \r" : "");
+  });
+}
+
+int complain(const Error& error) {
+  std::cerr << "arris-cli: " << error.message << "\n";
+  return bad_input;
+}
+
+/// Runs operations one after the other and takes the time of each.
+struct Run {
+  History history;
+  nlohmann::json seconds = nlohmann::json::object();
+
+  Result<void> step(const Operation& operation) {
+    const auto start = std::chrono::steady_clock::now();
+    const Result<void> done = history.run(operation, progress_context());
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    seconds[operation.name] = rounded(spent.count(), 3);
+    return done;
+  }
+};
+
+nlohmann::json summary_of(const History& history) {
+  const Document& document = history.current();
+  nlohmann::json summary;
+  summary["scan"] = document.scan->report.to_json();
+  summary["mean_edge_length"] = document.mesh->mean_edge_length();
+  summary["angle_noise_degrees"] = angle_noise(*document.curvatures);
+  summary["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
+  nlohmann::json thresholds = nlohmann::json::object();
+  if (document.find_sharp_lines)
+    thresholds["find_sharp_lines"] = document.find_sharp_lines->parameters;
+  if (document.find_partitions)
+    thresholds["find_partitions"] = document.find_partitions->parameters;
+  summary["thresholds"] = thresholds;
+
+  double length = 0.0;
+  std::size_t edges = 0, convex = 0, closed = 0;
+  for (const LinePtr& line : document.lines.lines) {
+    length += line->length;
+    edges += line->vertices.size() - 1;
+    convex += line->convex();
+    closed += line->closed;
+  }
+  summary["lines"] = {{"count", document.lines.lines.size()},
+                      {"edges", edges},
+                      {"length", length},
+                      {"convex", convex},
+                      {"concave", document.lines.lines.size() - convex},
+                      {"closed", closed}};
+  summary["partitions"] = {{"count", document.partitions.partitions.size()},
+                           {"assigned_area_share", assigned_share(document)}};
+  std::map<std::string, std::size_t> types;
+  for (const Boundary& boundary :
+       derive_boundaries(*document.mesh, *document.curvatures, document.lines, document.partitions))
+    ++types[std::string(name_of(boundary.type))];
+  summary["boundaries"] = types;
+  summary["document_hash"] = hash_of(document);
+  return summary;
+}
+
+/// lines.obj, boundaries.obj, scan_partitions.ply, operations.jsonl and summary.json.
+Result<void> write_results(const std::string& folder, const History& history,
+                           nlohmann::json summary) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) return fail("The folder " + folder + " cannot be made: " + code.message() + ".");
+  const Document& document = history.current();
+  const auto path = [&](const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
+  if (auto r = write_file_whole(path("lines.obj"), lines_obj(document)); !r) return r;
+  if (auto r = write_file_whole(path("boundaries.obj"), boundaries_obj(document)); !r) return r;
+  if (auto r = write_labelled_scan(path("scan_partitions.ply"), *document.scan,
+                                   labels_on_scan(document));
+      !r)
+    return r;
+  if (auto r = write_file_whole(path("operations.jsonl"), journal_text(history)); !r) return r;
+  summary["peak_memory_mb"] = rounded(peak_memory_mb(), 4);
+  return write_file_whole(path("summary.json"), summary.dump(2) + "\n");
+}
+
+void print_outcome(const std::string& folder, const nlohmann::json& summary) {
+  std::cout << summary["lines"]["count"] << " lines, " << summary["partitions"]["count"]
+            << " partitions ("
+            << fixed_text(100.0 * summary["partitions"]["assigned_area_share"].get<double>(), 1)
+            << " % of the area) written to " << folder << "\n";
+}
+
+int info(const std::string& scan, bool as_json) {
+  Run run;
+  if (const auto opened = run.step({"open", {{"file", scan}}}); !opened)
+    return complain(opened.error());
+  const Document& document = run.history.current();
+  const LoadReport& report = document.scan->report;
+  const Mesh& mesh = *document.mesh;
+  const Point size = mesh.box_max() - mesh.box_min();
+  if (as_json) {
+    nlohmann::json json = report.to_json();
+    json["size"] = {size.x(), size.y(), size.z()};
+    json["mean_edge_length"] = mesh.mean_edge_length();
+    json["angle_noise_degrees"] = angle_noise(*document.curvatures);
+    json["default_sharp_angle"] = default_sharp_angle(mesh, *document.curvatures);
+    json["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
+    json["sentences"] = report.sentences();
+    std::cout << json.dump(2) << "\n";
+    return 0;
+  }
+  std::cout << scan << ": " << report.format << ", " << report.file_faces << " faces, "
+            << report.file_vertices << " vertices\n"
+            << "mesh: " << report.faces << " triangles, " << report.vertices << " vertices, "
+            << report.components << (report.components == 1 ? " component, " : " components, ")
+            << report.border_edges << " border edges in " << report.border_loops
+            << (report.border_loops == 1 ? " loop" : " loops") << ", Euler number "
+            << report.euler_number << "\n"
+            << "size: " << number_text(size.x(), 5) << " x " << number_text(size.y(), 5) << " x "
+            << number_text(size.z(), 5) << ", mean edge " << number_text(mesh.mean_edge_length(), 4)
+            << "\n"
+            << "exterior angles from noise: " << fixed_text(angle_noise(*document.curvatures), 1)
+            << " degrees; sharp lines are looked for above "
+            << fixed_text(default_sharp_angle(mesh, *document.curvatures), 1) << " degrees\n";
+  if (report.clean()) std::cout << "nothing had to be mended\n";
+  for (const std::string& sentence : report.sentences()) std::cout << "- " << sentence << "\n";
+  return 0;
+}
+
+int curvature(const std::string& scan, const std::string& output) {
+  Run run;
+  if (const auto opened = run.step({"open", {{"file", scan}}}); !opened)
+    return complain(opened.error());
+  if (const auto written = write_curvature_ply(output, run.history.current()); !written)
+    return complain(written.error());
+  return 0;
+}
+
+int segment(const std::string& scan, const std::string& folder, const nlohmann::json& lines,
+            const nlohmann::json& partitions) {
+  Run run;
+  for (const Operation& operation :
+       {Operation{"open", {{"file", scan}}}, Operation{"find_sharp_lines", lines},
+        Operation{"find_partitions", partitions}})
+    if (const auto done = run.step(operation); !done) return complain(done.error());
+  nlohmann::json summary = summary_of(run.history);
+  summary["seconds"] = run.seconds;
+  if (const auto written = write_results(folder, run.history, summary); !written)
+    return complain(written.error());
+  print_outcome(folder, summary);
+  return 0;
+}
+
+int replay_file(const std::string& operations, const std::string& scan, const std::string& folder) {
+  const auto start = std::chrono::steady_clock::now();
+  const Result<Replay> done = replay(operations, {scan}, progress_context());
+  if (!done) return complain(done.error());
+  for (const std::string& warning : done->warnings) std::cerr << "arris-cli: " << warning << "\n";
+  if (done->history.current().empty())
+    return complain({operations + " ends with no part open; there is nothing to write.", false});
+  nlohmann::json summary = summary_of(done->history);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  summary["seconds"] = {{"replay", rounded(spent.count(), 3)}};
+  summary["warnings"] = done->warnings;
+  if (const auto written = write_results(folder, done->history, summary); !written)
+    return complain(written.error());
+  print_outcome(folder, summary);
+  return 0;
+}
+
+int sample(const std::string& output) {
+  SampleMould mould = make_mould();
+  const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
+  if (!mesh) return complain(mesh.error());
+  if (const auto written = write_ply(output, **mesh, {}); !written)
+    return complain(written.error());
+  return 0;
+}
+
+/// "MIN:MAX", "MIN:" or ":MAX" as [min, max]; max null for none.
+bool parse_interval(const std::string& text, nlohmann::json& interval) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return false;
+  const auto number = [](const std::string& part, double& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size();
+  };
+  double min = 0.0, max = 0.0;
+  const std::string low = text.substr(0, colon), high = text.substr(colon + 1);
+  if (!low.empty() && !number(low, min)) return false;
+  if (!high.empty() && !number(high, max)) return false;
+  if (min < 0.0 || (!high.empty() && max <= min)) return false;
+  interval = {min, high.empty() ? nlohmann::json() : nlohmann::json(max)};
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Arris: sharp lines and partitions of scanned moulds.\n"
+      "Exit codes: 0 done, 1 bad input, 2 bad usage.",
+      "arris-cli");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("arris-cli ") + ARRIS_VERSION);
+
+  std::string scan, output, operations;
+  bool as_json = false;
+  CLI::App* info_command = app.add_subcommand("info", "What a scan holds and what was mended");
+  info_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  info_command->add_flag("--json", as_json, "The whole load report as JSON");
+
+  CLI::App* curvature_command =
+      app.add_subcommand("curvature", "Write K H Kabs IK IH IKabs as vertex properties of a PLY");
+  curvature_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  curvature_command->add_option("-o,--output", output, "The PLY to write")->required();
+
+  CLI::App* segment_command =
+      app.add_subcommand("segment", "Find sharp lines and partitions; defaults come from the part");
+  double sharp_angle = 0.0, min_length = 0.0;
+  int candidates = 0;
+  std::uint32_t min_faces = 0;
+  std::string criterion;
+  std::vector<std::string> intervals;
+  segment_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  segment_command->add_option("-o,--output", output, "The folder for the results")->required();
+  CLI::Option* angle_option =
+      segment_command->add_option("--sharp-angle", sharp_angle, "TV_IH in degrees")
+          ->check(CLI::Range(0.1, 179.9));
+  CLI::Option* candidates_option =
+      segment_command->add_option("--candidates", candidates, "Edges kept at a vertex (alpha, 3)")
+          ->check(CLI::Range(1, 32));
+  CLI::Option* length_option =
+      segment_command
+          ->add_option("--min-length", min_length, "Isolated lines shorter than this go (mm)")
+          ->check(CLI::NonNegativeNumber);
+  CLI::Option* criterion_option =
+      segment_command->add_option("--criterion", criterion, "kabs or ikabs")
+          ->check(CLI::IsMember({"kabs", "ikabs"}));
+  segment_command
+      ->add_option("--interval", intervals,
+                   "MIN:MAX of the criterion; either may be left out; may be repeated")
+      ->take_all();
+  CLI::Option* faces_option =
+      segment_command->add_option("--min-faces", min_faces, "Smaller partitions are not kept")
+          ->check(CLI::PositiveNumber);
+
+  CLI::App* replay_command = app.add_subcommand("replay", "Run a journal or list of operations");
+  replay_command->add_option("OPERATIONS", operations, "A file of operations, one JSON a line")
+      ->required();
+  replay_command->add_option("-o,--output", output, "The folder for the results")->required();
+  std::string other_scan;
+  replay_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
+
+  CLI::App* sample_command = app.add_subcommand("sample", "Write the sample mould as a PLY");
+  sample_command->add_option("-o,--output", output, "The PLY to write")->required();
+
+  nlohmann::json lines = nlohmann::json::object(), partitions = nlohmann::json::object();
+  try {
+    app.parse(argc, argv);
+    for (const std::string& text : intervals) {
+      nlohmann::json interval;
+      if (!parse_interval(text, interval))
+        throw CLI::ValidationError("--interval", "'" + text + "' is not MIN:MAX with MIN < MAX");
+      partitions["intervals"].push_back(interval);
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_usage;
+  }
+  if (*angle_option) lines["angle"] = sharp_angle;
+  if (*candidates_option) lines["candidates"] = candidates;
+  if (*length_option) lines["min_length"] = min_length;
+  if (*criterion_option) partitions["criterion"] = criterion;
+  if (*faces_option) partitions["min_faces"] = min_faces;
+
+  if (*info_command) return info(scan, as_json);
+  if (*curvature_command) return curvature(scan, output);
+  if (*segment_command) return segment(scan, output, lines, partitions);
+  if (*replay_command) return replay_file(operations, other_scan, output);
+  return sample(output);
+}

@@ -1,0 +1,108 @@
+#include "core/curvature/fields.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numbers>
+
+#include "core/base/parallel.h"
+
+namespace arris {
+
+const std::array<FieldInfo, 8>& field_table() {
+  static constexpr std::array<FieldInfo, 8> table{{
+      {Field::k, "K", "1/mm²", "Gaussian curvature (eq. 2)", false, true, false},
+      {Field::h, "H", "1/mm", "Mean curvature (eq. 6); positive where convex", false, true, false},
+      {Field::kabs, "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder",
+       false, false, false},
+      {Field::ih, "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", false, true,
+       false},
+      {Field::ik, "IK", "", "Invariant of the Gaussian curvature (eq. 13)", false, true, false},
+      {Field::ikabs, "IKabs", "", "Invariant of the absolute curvature (eq. 14)", false, false,
+       false},
+      {Field::ihe, "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", true,
+       true, false},
+      {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", false,
+       false, true},
+  }};
+  return table;
+}
+
+const FieldInfo& info_of(Field field) { return field_table()[static_cast<std::size_t>(field)]; }
+
+std::optional<Field> find_field(std::string_view name) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  for (const FieldInfo& info : field_table())
+    if (std::equal(name.begin(), name.end(), info.name.begin(), info.name.end(), same))
+      return info.field;
+  return std::nullopt;
+}
+
+const std::array<std::string_view, 7>& shape_names() {
+  static constexpr std::array<std::string_view, 7> names{
+      "undefined", "flat", "elliptic convex", "elliptic concave", "ridge", "valley", "saddle"};
+  return names;
+}
+
+std::vector<double> field_values(const Curvatures& c, Field field) {
+  const bool h2 =
+      c.options.pairing == InvariantPairing::h2_k1 || c.options.pairing == InvariantPairing::h2_k2;
+  const bool k2 =
+      c.options.pairing == InvariantPairing::h1_k2 || c.options.pairing == InvariantPairing::h2_k2;
+  switch (field) {
+    case Field::k:
+      return c.k;
+    case Field::h:
+      return c.h;
+    case Field::kabs:
+      return c.kabs;
+    case Field::ih:
+      return h2 ? c.ih2 : c.ih1;
+    case Field::ik:
+      return k2 ? c.ik2 : c.ik1;
+    case Field::ikabs:
+      return c.ikabs;
+    case Field::ihe: {
+      std::vector<double> degrees(c.beta.size());
+      std::transform(c.beta.begin(), c.beta.end(), degrees.begin(),
+                     [](float b) { return b * 180.0 / std::numbers::pi; });
+      return degrees;
+    }
+    case Field::shape:
+      break;
+  }
+  std::vector<double> classes(c.shape.size());
+  std::transform(c.shape.begin(), c.shape.end(), classes.begin(), [](Shape s) {
+    return s == Shape::undefined ? std::numeric_limits<double>::quiet_NaN()
+                                 : static_cast<double>(s);
+  });
+  return classes;
+}
+
+std::vector<double> field_weights(const Mesh& mesh, Field field) {
+  std::vector<double> third(mesh.face_count());
+  parallel_for(mesh.face_count(), [&](std::size_t f) {
+    const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
+    third[f] =
+        (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm() /
+        6.0;
+  });
+  const bool on_edges = info_of(field).on_edges;
+  std::vector<double> weights(on_edges ? mesh.edge_count() : mesh.vertex_count(), 0.0);
+  parallel_for(weights.size(), [&](std::size_t i) {
+    if (on_edges) {
+      for (const FaceId f : mesh.edge_faces(static_cast<EdgeId>(i)))
+        if (f != no_id) weights[i] += third[f];
+    } else {
+      mesh.for_ring(static_cast<VertexId>(i), [&](HalfEdgeId h) {
+        if (mesh.face(h) != no_id) weights[i] += third[mesh.face(h)];
+      });
+    }
+  });
+  return weights;
+}
+
+}  // namespace arris

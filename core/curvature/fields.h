@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/curvature/curvature.h"
+#include "core/mesh/mesh.h"
+
+namespace arris {
+
+/// The fields that can be shown, exported and read under the pointer.
+enum class Field { k, h, kabs, ih, ik, ikabs, ihe, shape };
+
+struct FieldInfo {
+  Field field;
+  std::string_view name;     ///< As in files and on the command line: "Kabs".
+  std::string_view unit;     ///< "1/mm²", "°", or empty.
+  std::string_view meaning;  ///< One sentence.
+  bool on_edges = false;
+  bool is_signed = false;
+  bool is_class = false;  ///< Values are class numbers (Shape).
+};
+
+/// All fields in the order of the enumeration.
+const std::array<FieldInfo, 8>& field_table();
+const FieldInfo& info_of(Field field);
+/// By name, upper or lower case.
+std::optional<Field> find_field(std::string_view name);
+
+/// Names of the classes of Shape, in its order.
+const std::array<std::string_view, 7>& shape_names();
+
+/// The values of a field: per vertex, or per edge where on_edges. IHe is given in degrees; shapes
+/// as class numbers, NaN where undefined. IH and IK are those of the chosen pairing.
+std::vector<double> field_values(const Curvatures& curvatures, Field field);
+
+/// What an element of the field stands for in area, mm^2: a third of the faces around a vertex, or
+/// of the two faces of an edge.
+std::vector<double> field_weights(const Mesh& mesh, Field field);
+
+}  // namespace arris

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/curvature/curvature.h"
+#include "core/document/operation.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/scan.h"
+#include "core/partitions/boundaries.h"
+#include "core/partitions/partitions.h"
+#include "core/sharp_lines/lines.h"
+
+namespace arris {
+
+/// A step of figure 2 that has been run: its resolved parameters, and whether an earlier step has
+/// changed since.
+struct Step {
+  nlohmann::json parameters;
+  bool out_of_date = false;
+  bool operator==(const Step&) const = default;
+};
+
+/// The document: an immutable value whose parts are shared between snapshots (document.md, rule 2).
+/// Copying it costs a few pointers. Camera, selection and colours are not part of it.
+struct Document {
+  ScanPtr scan;              ///< Null in the empty document.
+  std::string scan_path;     ///< As the user gave it; not part of what makes documents equal.
+  MeshPtr mesh;              ///< The one current mesh.
+  CurvaturesPtr curvatures;  ///< Of `mesh`; derived, shared.
+  /// For each face of `mesh` its face in scan->mesh; null: the same numbers.
+  std::shared_ptr<const std::vector<FaceId>> scan_faces;
+
+  SharpLines lines;
+  Partitions partitions;
+  std::optional<Step> find_sharp_lines;
+  std::optional<Step> find_partitions;
+  std::uint32_t next_id = 1;  ///< Of the next line or partition; never goes back.
+
+  bool empty() const { return !scan; }
+};
+
+/// A resolved operation and the snapshot it led to.
+struct Performed {
+  Operation operation;
+  Document document;
+};
+
+/// Content hash of the canonical serialisation: mesh, sharp edges with provenance, lines, labels,
+/// partitions, steps and next_id. Two documents are equal where it is.
+std::string hash_of(const Document& document);
+
+/// The labels carried to the faces of scan->mesh: one per face, 0 where unassigned or deleted.
+std::vector<std::uint32_t> labels_on_scan(const Document& document);
+
+/// Bytes that `document` holds and `base` does not share (as the history's budget counts them).
+std::size_t bytes_beyond(const Document& document, const Document& base);
+
+/// Share of the area that belongs to a partition, 0 to 1.
+double assigned_share(const Document& document);
+
+}  // namespace arris

@@ -1,0 +1,132 @@
+#include "core/document/history.h"
+
+#include <algorithm>
+
+#include "core/document/journal.h"
+
+namespace arris {
+
+History::History(std::size_t budget) : budget_(budget), redo_child_(1, 0) {}
+History::~History() = default;
+History::History(History&&) noexcept = default;
+History& History::operator=(History&&) noexcept = default;
+
+Result<void> History::commit(Operation operation, Document result) {
+  HistoryEntry entry;
+  entry.sequence = static_cast<std::uint32_t>(entries_.size() + 1);
+  entry.parent = head_;
+  entry.operation = std::move(operation);
+  entry.hash = hash_of(result);
+  if (journal_)
+    if (const auto written = journal_->append(entry); !written) return written;
+  redo_child_[head_] = entry.sequence;
+  redo_child_.push_back(0);
+  snapshots_.push_back(Snapshot{result, bytes_beyond(result, current_), ++clock_});
+  head_ = entry.sequence;
+  current_ = std::move(result);
+  entries_.push_back(std::move(entry));
+  keep_budget();
+  return {};
+}
+
+Result<void> History::run(const Operation& operation, const Context& context) {
+  Result<Performed> performed = perform(current_, operation, context);
+  if (!performed) return tl::unexpected<Error>(performed.error());
+  return commit(std::move(performed->operation), std::move(performed->document));
+}
+
+bool History::can_redo() const { return redo_child_[head_] != 0; }
+
+Result<void> History::travel(std::uint32_t sequence, const Context& context) {
+  if (sequence > entries_.size())
+    return fail("There is no step " + std::to_string(sequence) + " in the history.");
+  if (sequence == head_) return {};
+  Result<Document> document = document_at(sequence, context);
+  if (!document) return tl::unexpected<Error>(document.error());
+  if (journal_)
+    if (const auto written = journal_->append_head(sequence); !written) return written;
+  go(sequence, std::move(*document));
+  return {};
+}
+
+Result<void> History::undo(const Context& context) {
+  if (!can_undo()) return fail("There is nothing to undo.");
+  return travel(entries_[head_ - 1].parent, context);
+}
+
+Result<void> History::redo(const Context& context) {
+  if (!can_redo()) return fail("There is nothing to redo.");
+  return travel(redo_child_[head_], context);
+}
+
+std::vector<std::uint32_t> History::line_of_travel() const {
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t s = head_; s != 0; s = entries_[s - 1].parent) rows.push_back(s);
+  std::reverse(rows.begin(), rows.end());
+  for (std::uint32_t s = redo_child_[head_]; s != 0; s = redo_child_[s]) rows.push_back(s);
+  return rows;
+}
+
+void History::set_journal(std::shared_ptr<Journal> journal) { journal_ = std::move(journal); }
+
+std::size_t History::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& snapshot : snapshots_)
+    if (snapshot) sum += snapshot->bytes;
+  return sum;
+}
+
+void History::go(std::uint32_t sequence, Document document) {
+  // From the new head on, redo retraces the way back to where we came from, where it lies ahead.
+  for (std::uint32_t s = head_; s != 0 && s != sequence; s = entries_[s - 1].parent)
+    redo_child_[entries_[s - 1].parent] = s;
+  for (std::uint32_t s = sequence; s != 0; s = entries_[s - 1].parent)
+    redo_child_[entries_[s - 1].parent] = s;
+  if (sequence != 0 && !snapshots_[sequence - 1]) {
+    const std::uint32_t parent = entries_[sequence - 1].parent;
+    const bool known = parent != 0 && snapshots_[parent - 1];
+    snapshots_[sequence - 1] = Snapshot{
+        document, bytes_beyond(document, known ? snapshots_[parent - 1]->document : Document{}), 0};
+  }
+  if (sequence != 0) snapshots_[sequence - 1]->last_use = ++clock_;
+  head_ = sequence;
+  current_ = std::move(document);
+  keep_budget();
+}
+
+void History::keep_budget() {
+  std::size_t sum = bytes();
+  while (sum > budget_) {
+    std::optional<Snapshot>* oldest = nullptr;
+    for (std::size_t k = 0; k < snapshots_.size(); ++k)
+      if (snapshots_[k] && k + 1 != head_ &&
+          (!oldest || snapshots_[k]->last_use < (*oldest)->last_use))
+        oldest = &snapshots_[k];
+    if (!oldest) return;
+    sum -= (*oldest)->bytes;
+    oldest->reset();
+  }
+}
+
+Result<Document> History::document_at(std::uint32_t sequence, const Context& context) {
+  std::vector<std::uint32_t> missing;
+  Document document;
+  for (std::uint32_t s = sequence; s != 0; s = entries_[s - 1].parent) {
+    if (s == head_ || snapshots_[s - 1]) {
+      document = s == head_ ? current_ : snapshots_[s - 1]->document;
+      break;
+    }
+    missing.push_back(s);
+  }
+  for (std::size_t k = missing.size(); k-- > 0;) {
+    const double step = 1.0 / static_cast<double>(missing.size());
+    const double done = static_cast<double>(missing.size() - 1 - k) * step;
+    Result<Document> next =
+        apply(document, entries_[missing[k] - 1].operation, context.part(done, done + step));
+    if (!next) return next;
+    document = std::move(*next);
+  }
+  return document;
+}
+
+}  // namespace arris

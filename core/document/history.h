@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/document/document.h"
+#include "core/document/operation.h"
+
+namespace arris {
+
+class Journal;
+
+/// One row: an operation that was applied to the state after row `parent`.
+struct HistoryEntry {
+  std::uint32_t sequence = 0;  ///< From 1; 0 is the empty document.
+  std::uint32_t parent = 0;
+  Operation operation;  ///< Resolved.
+  std::string hash;     ///< hash_of() the result.
+};
+
+/// Undo, redo and travel over snapshots that share their parts. A new edit after undo branches;
+/// nothing is ever deleted. Under a byte budget snapshots may be dropped (the current one never);
+/// they come back by replay.
+class History {
+ public:
+  static constexpr std::size_t default_budget = std::size_t{2} << 30;  // bytes
+
+  explicit History(std::size_t budget = default_budget);
+  ~History();
+  History(History&&) noexcept;
+  History& operator=(History&&) noexcept;
+
+  const Document& current() const { return current_; }
+  std::uint32_t head() const { return head_; }
+  const std::vector<HistoryEntry>& entries() const { return entries_; }
+
+  /// Adds the result of applying `operation` (resolved) to the current document. With a journal the
+  /// row is on disk when this returns. Errors: the journal cannot be written; nothing changed then.
+  Result<void> commit(Operation operation, Document result);
+  /// Resolves, applies and commits.
+  Result<void> run(const Operation& operation, const Context& context = {});
+
+  bool can_undo() const { return head_ != 0; }
+  bool can_redo() const;
+  /// Goes to a row's state (0: the empty document). Errors: no such row; the snapshot had been
+  /// dropped and its replay failed.
+  Result<void> travel(std::uint32_t sequence, const Context& context = {});
+  Result<void> undo(const Context& context = {});
+  Result<void> redo(const Context& context = {});
+
+  /// The rows from the first edit through the head to where redo would lead at last.
+  std::vector<std::uint32_t> line_of_travel() const;
+
+  /// Rows from now on are also written there.
+  void set_journal(std::shared_ptr<Journal> journal);
+  /// Bytes held by the snapshots over and above the current document.
+  std::size_t bytes() const;
+
+ private:
+  struct Snapshot {
+    Document document;
+    std::size_t bytes = 0;       // beyond its parent
+    std::uint64_t last_use = 0;  // for dropping the least recently used
+  };
+
+  void go(std::uint32_t sequence, Document document);
+  void keep_budget();
+  Result<Document> document_at(std::uint32_t sequence, const Context& context);
+
+  std::size_t budget_;
+  std::vector<HistoryEntry> entries_;               // entries_[k] has sequence k + 1
+  std::vector<std::optional<Snapshot>> snapshots_;  // of entries_[k]
+  std::vector<std::uint32_t> redo_child_;           // of sequence s: the child last visited, or 0
+  Document current_;
+  std::uint32_t head_ = 0;
+  std::uint64_t clock_ = 0;
+  std::shared_ptr<Journal> journal_;
+};
+
+}  // namespace arris

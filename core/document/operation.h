@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+
+namespace arris {
+
+struct Document;
+struct Performed;
+
+/// An operation is data: a name and parameters, one JSON object
+/// `{"operation": "find_sharp_lines", "angle": 24.0, ...}`. Angles in degrees, lengths in the
+/// mesh's unit.
+struct Operation {
+  std::string name;
+  nlohmann::json parameters = nlohmann::json::object();
+
+  /// From one JSON object. Errors: not an object, no known "operation".
+  static Result<Operation> from_json(const nlohmann::json& json);
+  static Result<Operation> parse(std::string_view text);
+  nlohmann::json to_json() const;
+  /// One line of JSON, keys sorted.
+  std::string text() const { return to_json().dump(); }
+  bool operator==(const Operation&) const = default;
+};
+
+/// A row of the one table on which undo, journal, replay, command line and window stand.
+struct OperationKind {
+  std::string_view name;   ///< "find_sharp_lines"
+  std::string_view title;  ///< "Find sharp lines", as menus and the history say it.
+  /// Version of the method; part of the stored operation, so that a replay knows what it replays.
+  int version;
+  /// Checks the parameters and fills in every default, from the part where they depend on it.
+  Result<nlohmann::json> (*resolve)(const Document&, const nlohmann::json& parameters);
+  /// The new snapshot. A pure function of its arguments (for `open`: and of the file, whose hash is
+  /// among the resolved parameters).
+  Result<Document> (*apply)(const Document&, const nlohmann::json& parameters, const Context&);
+  /// The gist of the parameters for the history: "24.0°"; may be empty.
+  std::string (*gist)(const nlohmann::json& parameters);
+};
+
+/// All operations, by name.
+std::span<const OperationKind> operation_table();
+const OperationKind* find_operation(std::string_view name);
+
+/// The complete operation: version, every default filled in. Errors: unknown name, version or
+/// parameter, a value of the wrong type or out of range, nothing to work on.
+Result<Operation> resolve(const Document& document, const Operation& operation);
+
+/// Resolves, then applies. The document itself is untouched.
+Result<Document> apply(const Document& document, const Operation& operation,
+                       const Context& context = {});
+
+/// Resolves and applies; what History and the window commit. An `open` without a hash gets that of
+/// the file it read.
+Result<Performed> perform(const Document& document, const Operation& operation,
+                          const Context& context = {});
+
+/// One line for the history: "Find sharp lines, 24.0°".
+std::string describe(const Operation& operation);
+
+}  // namespace arris

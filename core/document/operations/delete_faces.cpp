@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <limits>
+
+#include "core/document/operations/operations.h"
+#include "core/mesh/build_mesh.h"
+
+namespace arris {
+
+namespace {
+
+constexpr std::int64_t most_faces = std::numeric_limits<std::int32_t>::max();
+
+/// `faces`: [[a, b, c], ...]; or `components_under`: components with fewer faces; or `box`:
+/// [x0, y0, z0, x1, y1, z1] with `side` "inside" or "outside" (of the face's centre).
+Result<nlohmann::json> resolve_delete(const Document& document, const nlohmann::json& given) {
+  ParameterReader reader("delete_faces", given);
+  const int ways = reader.has("faces") + reader.has("components_under") + reader.has("box");
+  const nlohmann::json faces = reader.raw("faces"), box = reader.raw("box");
+  if (reader.has("components_under")) reader.whole("components_under", 0, 1, most_faces);
+  reader.raw("components_under");
+  reader.raw("side");
+  if (ways != 1) reader.fault("faces", "exactly one of faces, components_under and box");
+  if (reader.has("faces")) {
+    if (!faces.is_array()) {
+      reader.fault("faces", "a list of faces [a, b, c] by vertex id");
+    } else {
+      for (const auto& face : faces) {
+        if (!face.is_array() || face.size() != 3 ||
+            !std::all_of(face.begin(), face.end(), [](const auto& v) {
+              return v.is_number_unsigned() && v.template get<std::uint64_t>() < no_id;
+            })) {
+          reader.fault("faces", "a list of faces [a, b, c] by vertex id");
+          break;
+        }
+        if (!document.mesh->find_face({face[0], face[1], face[2]})) {
+          reader.fault("faces", "faces of the mesh; it has none with vertices " + face.dump());
+          break;
+        }
+      }
+      reader.set("faces", faces);
+    }
+  }
+  if (reader.has("box")) {
+    if (!box.is_array() || box.size() != 6 ||
+        !std::all_of(box.begin(), box.end(), [](const auto& x) { return x.is_number(); }))
+      reader.fault("box", "six numbers [x0, y0, z0, x1, y1, z1]");
+    reader.set("box", box);
+    reader.choice("side", "inside", {"inside", "outside"});
+  }
+  return reader.finish();
+}
+
+std::vector<bool> chosen_faces(const Mesh& mesh, const nlohmann::json& parameters) {
+  std::vector<bool> chosen(mesh.face_count(), false);
+  if (parameters.contains("faces")) {
+    for (const auto& face : parameters["faces"])
+      if (const auto f = mesh.find_face({face[0], face[1], face[2]})) chosen[*f] = true;
+  } else if (parameters.contains("components_under")) {
+    const std::size_t limit = parameters["components_under"];
+    std::vector<bool> seen(mesh.face_count(), false);
+    std::vector<FaceId> component;
+    for (FaceId start = 0; start < mesh.face_count(); ++start) {
+      if (seen[start]) continue;
+      component.assign(1, start);
+      seen[start] = true;
+      for (std::size_t k = 0; k < component.size(); ++k) {
+        HalfEdgeId h = mesh.face_half_edge(component[k]);
+        for (int side = 0; side < 3; ++side, h = mesh.next(h))
+          if (const FaceId f = mesh.face(Mesh::opposite(h)); f != no_id && !seen[f]) {
+            seen[f] = true;
+            component.push_back(f);
+          }
+      }
+      if (component.size() < limit)
+        for (const FaceId f : component) chosen[f] = true;
+    }
+  } else {
+    const std::vector<double> box = parameters["box"];
+    const bool inside = parameters["side"] == "inside";
+    for (FaceId f = 0; f < mesh.face_count(); ++f) {
+      const Triangle& t = mesh.triangle(f);
+      const Point centre = (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])) / 3.0;
+      bool in = true;
+      for (int k = 0; k < 3; ++k)
+        in = in && centre[k] >= std::min(box[k], box[k + 3]) &&
+             centre[k] <= std::max(box[k], box[k + 3]);
+      chosen[f] = in == inside;
+    }
+  }
+  return chosen;
+}
+
+Result<Document> apply_delete(const Document& document, const nlohmann::json& parameters,
+                              const Context& context) {
+  const Mesh& mesh = *document.mesh;
+  const std::vector<bool> chosen = chosen_faces(mesh, parameters);
+  const std::size_t count =
+      static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), true));
+  if (count == 0) return fail("delete_faces: no face of the part is meant; nothing was deleted.");
+  if (count == mesh.face_count()) return fail("delete_faces: this would delete the whole part.");
+
+  std::vector<FaceId> kept;
+  std::vector<std::uint64_t> starts{0};
+  std::vector<VertexId> corners;
+  for (FaceId f = 0; f < mesh.face_count(); ++f) {
+    if (chosen[f]) continue;
+    kept.push_back(f);
+    corners.insert(corners.end(), mesh.triangle(f).begin(), mesh.triangle(f).end());
+    starts.push_back(corners.size());
+  }
+  // A vertex that is left with two fans is split, as at load.
+  LoadReport report;
+  Result<BuiltMesh> built = build_mesh({mesh.points().begin(), mesh.points().end()}, starts,
+                                       corners, report, context.part(0.0, 0.5));
+  if (!built) return tl::unexpected<Error>(built.error());
+  auto scan_faces = std::make_shared<std::vector<FaceId>>();
+  for (const std::uint32_t k : built->source_faces) {
+    const FaceId f = kept[k];
+    scan_faces->push_back(document.scan_faces ? (*document.scan_faces)[f] : f);
+  }
+  Document result = document;
+  if (const auto changed = change_mesh(result, built->mesh, context.part(0.5, 1.0)); !changed)
+    return tl::unexpected<Error>(changed.error());
+  result.scan_faces = std::move(scan_faces);
+  return result;
+}
+
+std::string gist_delete(const nlohmann::json& parameters) {
+  if (parameters.contains("faces")) return std::to_string(parameters["faces"].size()) + " faces";
+  if (parameters.contains("components_under"))
+    return "components under " + parameters["components_under"].dump() + " faces";
+  return parameters.value("side", "inside") + " a box";
+}
+
+}  // namespace
+
+Result<void> change_mesh(Document& document, MeshPtr mesh, const Context& context) {
+  Result<CurvaturesPtr> curvatures =
+      compute_curvatures(*mesh, document.curvatures->options, context);
+  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  if (!document.lines.edges.empty()) {
+    std::vector<Origin> edges(mesh->edge_count(), Origin::none);
+    for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
+      if (!document.lines.is_sharp(e)) continue;
+      const EdgeVertices& v = document.mesh->edge(e);
+      if (const auto same = mesh->find_edge(v[0], v[1]); same && !mesh->is_border_edge(*same))
+        edges[*same] = document.lines.edges[e];
+    }
+    document.lines = relink_lines(*mesh, **curvatures, edges, document.lines, document.next_id);
+  }
+  document.mesh = std::move(mesh);
+  document.curvatures = std::move(*curvatures);
+  document.partitions = {};
+  if (document.find_sharp_lines) document.find_sharp_lines->out_of_date = true;
+  if (document.find_partitions) document.find_partitions->out_of_date = true;
+  return {};
+}
+
+const OperationKind delete_faces_operation{"delete_faces", "Delete faces", 1,
+                                           resolve_delete, apply_delete,   gist_delete};
+
+}  // namespace arris

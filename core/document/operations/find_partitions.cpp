@@ -1,0 +1,80 @@
+#include <cmath>
+#include <limits>
+
+#include "core/base/number_text.h"
+#include "core/document/operations/operations.h"
+#include "core/partitions/intervals.h"
+
+namespace arris {
+
+namespace {
+
+constexpr const char* interval_form = "a list of intervals [min, max] with 0 <= min < max";
+
+/// A missing upper end ("null") stands for no upper bound.
+Result<nlohmann::json> resolve_partitions(const Document& document, const nlohmann::json& given) {
+  ParameterReader reader("find_partitions", given);
+  const Criterion criterion = reader.choice("criterion", "kabs", {"kabs", "ikabs"}) == "kabs"
+                                  ? Criterion::kabs
+                                  : Criterion::ikabs;
+  const nlohmann::json intervals = reader.raw("intervals");
+  if (intervals.is_null() || (intervals.is_array() && intervals.empty())) {
+    nlohmann::json chosen = nlohmann::json::array();
+    for (const CurvatureInterval& interval :
+         default_intervals(*document.mesh, *document.curvatures, criterion, document.lines))
+      chosen.push_back({interval.min, std::isfinite(interval.max) ? nlohmann::json(interval.max)
+                                                                  : nlohmann::json()});
+    reader.set("intervals", std::move(chosen));
+  } else {
+    bool good = intervals.is_array();
+    if (good)
+      for (const auto& interval : intervals) {
+        good = good && interval.is_array() && interval.size() == 2 && interval[0].is_number() &&
+               (interval[1].is_number() || interval[1].is_null()) &&
+               interval[0].get<double>() >= 0.0 &&
+               (interval[1].is_null() || interval[1].get<double>() > interval[0].get<double>());
+      }
+    if (!good) reader.fault("intervals", interval_form);
+    reader.set("intervals", intervals);
+  }
+  reader.whole("min_faces", default_min_faces(*document.mesh), 1,
+               std::numeric_limits<std::int32_t>::max());
+  return reader.finish();
+}
+
+Result<Document> apply_partitions(const Document& document, const nlohmann::json& parameters,
+                                  const Context& context) {
+  PartitionOptions options;
+  options.criterion = parameters.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
+  options.min_faces = parameters.at("min_faces");
+  for (const auto& interval : parameters.at("intervals"))
+    options.intervals.push_back({interval[0], interval[1].is_null()
+                                                  ? std::numeric_limits<double>::infinity()
+                                                  : interval[1].get<double>()});
+  const Result<FoundPartitions> found =
+      propagate_fronts(*document.mesh, values_of(*document.curvatures, options.criterion),
+                       document.lines, options, context);
+  if (!found) return tl::unexpected<Error>(found.error());
+  Document result = document;
+  result.partitions =
+      number_partitions(*document.mesh, *found, document.partitions, result.next_id);
+  result.find_partitions = Step{parameters, false};
+  return result;
+}
+
+std::string gist_partitions(const nlohmann::json& parameters) {
+  std::string text = parameters.value("criterion", "kabs") == "kabs" ? "Kabs" : "IKabs";
+  if (!parameters.contains("intervals")) return text;
+  for (const auto& interval : parameters["intervals"]) {
+    text += " " + number_text(interval[0].get<double>(), 3) + ":";
+    if (!interval[1].is_null()) text += number_text(interval[1].get<double>(), 3);
+  }
+  return text;
+}
+
+}  // namespace
+
+const OperationKind find_partitions_operation{
+    "find_partitions", "Find partitions", 1, resolve_partitions, apply_partitions, gist_partitions};
+
+}  // namespace arris

@@ -1,0 +1,54 @@
+#include "core/sharp_lines/sharp_lines.h"
+
+#include <algorithm>
+
+#include "core/base/number_text.h"
+#include "core/document/operations/operations.h"
+
+namespace arris {
+
+namespace {
+
+Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::json& given) {
+  const Mesh& mesh = *document.mesh;
+  const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
+  const SharpLineOptions defaults;
+  ParameterReader reader("find_sharp_lines", given);
+  reader.real("angle", default_sharp_angle(mesh, *document.curvatures), 0.1, 179.9);
+  reader.whole("candidates", defaults.candidates, 1, 32);
+  reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
+  reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);
+  reader.real("bridge_gap", defaults.bridge_gap, 0.0, longest);
+  return reader.finish();
+}
+
+Result<Document> apply_lines(const Document& document, const nlohmann::json& parameters,
+                             const Context& context) {
+  SharpLineOptions options;
+  options.angle = parameters.at("angle");
+  options.candidates = parameters.at("candidates");
+  options.min_length = parameters.at("min_length");
+  options.parallel_distance = parameters.at("parallel_distance");
+  options.bridge_gap = parameters.at("bridge_gap");
+  const Result<std::vector<Origin>> edges =
+      find_sharp_edges(*document.mesh, *document.curvatures, options, context);
+  if (!edges) return tl::unexpected<Error>(edges.error());
+  Document result = document;
+  result.lines =
+      relink_lines(*document.mesh, *document.curvatures, *edges, document.lines, result.next_id);
+  result.find_sharp_lines = Step{parameters, false};
+  if (result.find_partitions) result.find_partitions->out_of_date = true;
+  return result;
+}
+
+std::string gist_lines(const nlohmann::json& parameters) {
+  if (!parameters.contains("angle")) return "";
+  return fixed_text(parameters["angle"].get<double>(), 1) + "°";
+}
+
+}  // namespace
+
+const OperationKind find_sharp_lines_operation{"find_sharp_lines", "Find sharp lines", 1,
+                                               resolve_lines,      apply_lines,        gist_lines};
+
+}  // namespace arris

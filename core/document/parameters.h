@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/result.h"
+
+namespace arris {
+
+/// Reads the parameters of an operation with types, ranges and defaults, and collects them into the
+/// resolved object. The first fault is kept; finish() returns it, or complains of unknown names.
+class ParameterReader {
+ public:
+  ParameterReader(std::string operation, const nlohmann::json& given)
+      : operation_(std::move(operation)), given_(given) {}
+
+  /// A number in [least, most].
+  double real(const std::string& name, double otherwise, double least, double most);
+  /// A whole number in [least, most].
+  std::int64_t whole(const std::string& name, std::int64_t otherwise, std::int64_t least,
+                     std::int64_t most);
+  /// One of `choices`.
+  std::string choice(const std::string& name, const std::string& otherwise,
+                     const std::vector<std::string>& choices);
+  std::string text(const std::string& name, const std::string& otherwise);
+  bool flag(const std::string& name, bool otherwise);
+  /// The value as given, to be checked by the caller; null where absent.
+  const nlohmann::json& raw(const std::string& name);
+  bool has(const std::string& name) const { return given_.contains(name); }
+  /// Sets what raw() was resolved to.
+  void set(const std::string& name, nlohmann::json value) { resolved_[name] = std::move(value); }
+  void fault(const std::string& name, const std::string& expected);
+
+  Result<nlohmann::json> finish();
+
+ private:
+  const nlohmann::json* take(const std::string& name);
+
+  std::string operation_;
+  const nlohmann::json& given_;
+  nlohmann::json resolved_ = nlohmann::json::object();
+  std::set<std::string> known_;
+  std::optional<Error> error_;
+};
+
+}  // namespace arris

@@ -1,0 +1,245 @@
+#include "core/partitions/partitions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/base/parallel.h"
+
+namespace arris {
+
+namespace {
+
+constexpr std::uint32_t unassigned = 0;
+
+/// The state of one propagation over one mesh.
+class Propagation {
+ public:
+  Propagation(const Mesh& mesh, const std::vector<double>& values, const SharpLines& lines)
+      : mesh_(mesh), values_(values), lines_(lines), regular_(mesh.vertex_count(), 0) {
+    parallel_for(mesh.vertex_count(), [&](std::size_t i) {
+      const VertexId v = static_cast<VertexId>(i);
+      if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return;
+      bool on_line = false;
+      if (!lines.edges.empty())
+        mesh.for_ring(v, [&](HalfEdgeId h) { on_line |= lines.is_sharp(h >> 1); });
+      regular_[v] = !on_line;
+    });
+    votes_.resize(mesh.face_count());
+    parallel_for(mesh.face_count(), [&](std::size_t f) {
+      const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
+      votes_[f] = static_cast<std::uint8_t>(regular_[t[0]] + regular_[t[1]] + regular_[t[2]]);
+    });
+    found_.labels.assign(mesh.face_count(), unassigned);
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v)
+      if (regular_[v]) seeds_.push_back(v);
+    std::sort(seeds_.begin(), seeds_.end(), [&](VertexId a, VertexId b) {
+      return values_[a] != values_[b] ? values_[a] > values_[b] : a < b;
+    });
+  }
+
+  void run(const CurvatureInterval& interval, const PartitionOptions& options) {
+    std::vector<std::uint8_t> passes(mesh_.face_count());
+    parallel_for(mesh_.face_count(), [&](std::size_t f) {
+      bool in = votes_[f] > 0 && found_.labels[f] == unassigned;
+      for (const VertexId v : mesh_.triangle(static_cast<FaceId>(f)))
+        in = in && (!regular_[v] || (values_[v] >= interval.min && values_[v] <= interval.max));
+      passes[f] = in;
+    });
+    const auto first = std::partition_point(seeds_.begin(), seeds_.end(),
+                                            [&](VertexId v) { return values_[v] > interval.max; });
+    for (auto seed = first; seed != seeds_.end() && values_[*seed] >= interval.min; ++seed) {
+      FaceId start = no_id;  // the passing face with the lowest number round the seed
+      mesh_.for_ring(*seed, [&](HalfEdgeId h) {
+        const FaceId f = mesh_.face(h);
+        if (f < start && passes[f] && found_.labels[f] == unassigned) start = f;
+      });
+      if (start == no_id) continue;
+      propagate(start, interval, options, passes);
+    }
+  }
+
+  /// Faces without a regular vertex: round after round, each joins the partition across its longest
+  /// edge that is not sharp.
+  FoundPartitions finish() {
+    std::vector<FaceId> left;
+    for (FaceId f = 0; f < mesh_.face_count(); ++f)
+      if (votes_[f] == 0) left.push_back(f);
+    std::vector<std::pair<FaceId, std::uint32_t>> joined;
+    do {
+      joined.clear();
+      std::vector<FaceId> still;
+      for (const FaceId f : left) {
+        const FaceId across = across_longest(f);
+        const std::uint32_t label = across == no_id ? unassigned : found_.labels[across];
+        if (label == unassigned)
+          still.push_back(f);
+        else
+          joined.emplace_back(f, label);
+      }
+      for (const auto& [f, label] : joined) {
+        found_.labels[f] = label;
+        Partition& partition = found_.partitions[label - 1];
+        ++partition.faces;
+        partition.area += face_area(mesh_, f);
+      }
+      left = std::move(still);
+    } while (!joined.empty());
+    return std::move(found_);
+  }
+
+ private:
+  FaceId across_longest(FaceId f) const {
+    FaceId across = no_id;
+    double longest = -1.0;
+    HalfEdgeId h = mesh_.face_half_edge(f);
+    for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+      if (lines_.is_sharp(h >> 1)) continue;
+      const double length = mesh_.edge_length(h >> 1);
+      if (length > longest) {
+        longest = length;
+        across = mesh_.face(Mesh::opposite(h));
+      }
+    }
+    return across;
+  }
+
+  void propagate(FaceId start, const CurvatureInterval& interval, const PartitionOptions& options,
+                 const std::vector<std::uint8_t>& passes) {
+    const std::uint32_t label = static_cast<std::uint32_t>(found_.partitions.size() + 1);
+    front_.assign(1, start);
+    found_.labels[start] = label;
+    for (std::size_t next = 0; next < front_.size(); ++next) {
+      HalfEdgeId h = mesh_.face_half_edge(front_[next]);
+      for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+        const FaceId f = mesh_.face(Mesh::opposite(h));
+        if (f == no_id || !passes[f] || found_.labels[f] != unassigned || lines_.is_sharp(h >> 1))
+          continue;
+        found_.labels[f] = label;
+        front_.push_back(f);
+      }
+    }
+    if (front_.size() < options.min_faces) {
+      for (const FaceId f : front_) found_.labels[f] = unassigned;
+      return;
+    }
+    Partition partition;
+    partition.anchor = mesh_.triangle(start);
+    partition.faces = static_cast<std::uint32_t>(front_.size());
+    partition.criterion = options.criterion;
+    partition.interval = interval;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const FaceId f : front_) {
+      partition.area += face_area(mesh_, f);
+      for (const VertexId v : mesh_.triangle(f))
+        if (regular_[v]) {
+          sum += values_[v];
+          ++count;
+        }
+    }
+    partition.mean_value = count > 0 ? sum / static_cast<double>(count) : 0.0;
+    found_.partitions.push_back(partition);
+  }
+
+  const Mesh& mesh_;
+  const std::vector<double>& values_;
+  const SharpLines& lines_;
+  std::vector<std::uint8_t> regular_;  // vertices with a two-sided curvature
+  std::vector<std::uint8_t> votes_;    // regular vertices of each face
+  std::vector<VertexId> seeds_;        // regular vertices by decreasing value
+  std::vector<FaceId> front_;
+  FoundPartitions found_;
+};
+
+}  // namespace
+
+std::string_view name_of(Criterion criterion) {
+  return criterion == Criterion::kabs ? "kabs" : "ikabs";
+}
+
+const std::vector<double>& values_of(const Curvatures& curvatures, Criterion criterion) {
+  return criterion == Criterion::kabs ? curvatures.kabs : curvatures.ikabs;
+}
+
+const Partition* Partitions::find(std::uint32_t id) const {
+  const auto found =
+      std::lower_bound(partitions.begin(), partitions.end(), id,
+                       [](const PartitionPtr& p, std::uint32_t x) { return p->id < x; });
+  return found != partitions.end() && (*found)->id == id ? found->get() : nullptr;
+}
+
+Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<double>& values,
+                                         const SharpLines& lines, const PartitionOptions& options,
+                                         const Context& context) {
+  context.report(0.0, "partitions");
+  Propagation propagation(mesh, values, lines);
+  for (std::size_t k = 0; k < options.intervals.size(); ++k) {
+    if (context.cancelled()) return cancelled();
+    propagation.run(options.intervals[k], options);
+    context.report(static_cast<double>(k + 1) / static_cast<double>(options.intervals.size() + 1),
+                   "partitions");
+  }
+  FoundPartitions found = propagation.finish();
+  context.report(1.0, "partitions");
+  return found;
+}
+
+Partitions number_partitions(const Mesh& mesh, const FoundPartitions& found,
+                             const Partitions& previous, std::uint32_t& next_id) {
+  std::vector<Partition> partitions = found.partitions;
+  std::vector<const PartitionPtr*> successor_of(partitions.size(), nullptr);
+  if (!previous.labels.empty() && previous.labels.size() == mesh.face_count()) {
+    std::unordered_map<std::uint64_t, double> area;  // (new label, old id) to shared area
+    for (FaceId f = 0; f < mesh.face_count(); ++f)
+      if (found.labels[f] != unassigned && previous.labels[f] != unassigned)
+        area[static_cast<std::uint64_t>(found.labels[f] - 1) << 32 | previous.labels[f]] +=
+            face_area(mesh, f);
+    std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> shared;  // area, old id, new
+    for (const auto& [key, value] : area)
+      shared.emplace_back(value, static_cast<std::uint32_t>(key),
+                          static_cast<std::uint32_t>(key >> 32));
+    std::sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) {
+      return std::get<0>(a) != std::get<0>(b)   ? std::get<0>(a) > std::get<0>(b)
+             : std::get<1>(a) != std::get<1>(b) ? std::get<1>(a) < std::get<1>(b)
+                                                : std::get<2>(a) < std::get<2>(b);
+    });
+    std::vector<bool> taken(previous.partitions.size(), false);
+    for (const auto& [value, id, k] : shared) {
+      const auto old =
+          std::lower_bound(previous.partitions.begin(), previous.partitions.end(), id,
+                           [](const PartitionPtr& p, std::uint32_t x) { return p->id < x; });
+      const std::size_t place = static_cast<std::size_t>(old - previous.partitions.begin());
+      if (taken[place] || successor_of[k]) continue;
+      taken[place] = true;
+      successor_of[k] = &*old;
+      partitions[k].id = id;
+    }
+  }
+
+  Partitions result;
+  std::vector<std::uint32_t> id_of(partitions.size() + 1, unassigned);
+  for (std::size_t k = 0; k < partitions.size(); ++k) {
+    if (partitions[k].id == 0) partitions[k].id = next_id++;
+    id_of[k + 1] = partitions[k].id;
+    if (successor_of[k] && **successor_of[k] == partitions[k])
+      result.partitions.push_back(*successor_of[k]);
+    else
+      result.partitions.push_back(std::make_shared<const Partition>(partitions[k]));
+  }
+  std::sort(result.partitions.begin(), result.partitions.end(),
+            [](const PartitionPtr& a, const PartitionPtr& b) { return a->id < b->id; });
+  std::vector<std::uint32_t> labels(found.labels.size());
+  for (std::size_t f = 0; f < labels.size(); ++f) labels[f] = id_of[found.labels[f]];
+  result.labels = ChunkedArray<std::uint32_t>(labels, previous.labels);
+  return result;
+}
+
+double face_area(const Mesh& mesh, FaceId f) {
+  const Triangle& t = mesh.triangle(f);
+  return 0.5 *
+         (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm();
+}
+
+}  // namespace arris

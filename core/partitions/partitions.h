@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/base/chunked_array.h"
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/curvature/curvature.h"
+#include "core/mesh/mesh.h"
+#include "core/sharp_lines/lines.h"
+
+namespace arris {
+
+/// Absolute curvature that decides over a partition: Kabs on dense meshes, its invariant on sparse
+/// ones (section 7.1).
+enum class Criterion : std::uint8_t { kabs, ikabs };
+
+std::string_view name_of(Criterion criterion);  ///< "kabs" or "ikabs", as in operations.
+
+/// The values the criterion reads, per vertex.
+const std::vector<double>& values_of(const Curvatures& curvatures, Criterion criterion);
+
+/// [Kmin, Kmax], both ends included; 1/mm^2 for Kabs, without unit for IKabs.
+struct CurvatureInterval {
+  double min = 0.0;
+  double max = 0.0;
+  bool operator==(const CurvatureInterval&) const = default;
+};
+
+/// Section 7. Lengths in the mesh's unit.
+struct PartitionOptions {
+  Criterion criterion = Criterion::kabs;     // the paper's for dense meshes
+  std::vector<CurvatureInterval> intervals;  // run one after the other over what is left
+  std::uint32_t min_faces = 1;               // partitions with fewer faces are not kept
+};
+
+/// A partition: an edge-connected set of faces of slowly varying curvature.
+struct Partition {
+  std::uint32_t id = 0;
+  Triangle anchor{};  ///< Vertices of its seed face; finds it again (document.md, rule 4).
+  std::uint32_t faces = 0;
+  double area = 0.0;        ///< mm^2
+  double mean_value = 0.0;  ///< Mean of the criterion over its regular vertices.
+  Criterion criterion = Criterion::kabs;
+  CurvatureInterval interval;  ///< That it was found under.
+  bool operator==(const Partition&) const = default;
+};
+
+using PartitionPtr = std::shared_ptr<const Partition>;
+
+/// The partitions of a document.
+struct Partitions {
+  ChunkedArray<std::uint32_t>
+      labels;  ///< Per face: partition id; 0: unassigned. Empty: never found.
+  std::vector<PartitionPtr> partitions;  ///< By id.
+
+  std::uint32_t label(FaceId f) const { return labels.empty() ? 0 : labels[f]; }
+  const Partition* find(std::uint32_t id) const;
+};
+
+/// Front propagation of section 7.1: labels 1, 2, ... per face in the order in which the partitions
+/// were found, 0 where no interval passes. A face passes where each of its regular vertices
+/// (interior, on no sharp line) lies in the interval; a face without one joins afterwards across
+/// its longest edge that is not sharp. The front never crosses a sharp edge. `values`: the
+/// criterion per vertex. Errors: cancelled.
+struct FoundPartitions {
+  std::vector<std::uint32_t> labels;
+  std::vector<Partition> partitions;  ///< [k] has label k + 1; ids are still 0.
+};
+Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<double>& values,
+                                         const SharpLines& lines, const PartitionOptions& options,
+                                         const Context& context = {});
+
+/// A document's partitions from found ones: each keeps the id of the partition of `previous` with
+/// which it shares most area (tie: the lower id); the others get ids from `next_id` on. `previous`
+/// belongs to the same mesh, or is empty.
+Partitions number_partitions(const Mesh& mesh, const FoundPartitions& found,
+                             const Partitions& previous, std::uint32_t& next_id);
+
+double face_area(const Mesh& mesh, FaceId f);  ///< mm^2
+
+}  // namespace arris

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/curvature/curvature.h"
+#include "core/mesh/mesh.h"
+#include "core/sharp_lines/lines.h"
+
+namespace arris {
+
+/// Section 6. Angles in degrees, lengths in the mesh's unit.
+struct SharpLineOptions {
+  double angle = 30.0;      // TV_IH, over 0 to 180; see default_sharp_angle() for one from the part
+  int candidates = 3;       // the paper's alpha (figure 26), 1 to 32
+  double min_length = 0.0;  // isolated lines shorter than this go; 0 keeps them
+  int parallel_distance = 1;  // edges between parallel lines of which the weaker goes; 0 keeps both
+  double bridge_gap = 0.0;    // loose ends no farther apart than this are joined; 0 joins none
+};
+
+/// The raw sharp edges of section 6.1: seeds by decreasing IKabs, walks by the candidate rule of
+/// figure 26 with TV_IK from TV_IH, closing pass. One flag per edge. A free edge that would make a
+/// triangle with two sharp edges is never taken.
+std::vector<Origin> identify_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
+                                         const SharpLineOptions& options);
+
+/// Identification, then the automatic treatments of section 6.3.1. Errors: cancelled.
+Result<std::vector<Origin>> find_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
+                                             const SharpLineOptions& options,
+                                             const Context& context = {});
+
+/// Standard deviation in degrees of the exterior angles that noise alone gives this mesh: robust,
+/// from the median of |IHe|, so that sharp lines do not count.
+double angle_noise(const Curvatures& curvatures);
+
+/// TV_IH for this part in degrees: above what its noise gives an edge, and at least what an
+/// engineer calls sharp.
+double default_sharp_angle(const Mesh& mesh, const Curvatures& curvatures);
+
+/// Length in mm below which an isolated line on this part is rather noise than a line.
+double default_min_length(const Mesh& mesh);
+
+}  // namespace arris

@@ -1,0 +1,876 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QTest>
+#include <QToolButton>
+#include <QWheelEvent>
+
+#include "ui/panels/colour_map_panel.h"
+#include "ui/panels/controls.h"
+#include "ui/panels/element_table.h"
+#include "ui/panels/histogram_panel.h"
+#include "ui/panels/history_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/panels/steps_panel.h"
+
+namespace arris::ui {
+namespace {
+
+/// Shows a widget at a size with the keyboard focus in its window.
+void show(QWidget& widget, int width, int height) {
+  widget.resize(width, height);
+  widget.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&widget));
+  widget.activateWindow();
+  QApplication::setActiveWindow(&widget);
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&widget));
+}
+
+void wheel(QWidget& widget, const QPoint& at, int delta) {
+  QWheelEvent event(QPointF(at), QPointF(widget.mapToGlobal(at)), QPoint(), QPoint(0, delta),
+                    Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&widget, &event);
+}
+
+QPushButton* button(const QWidget& in, const QString& accessible_name) {
+  for (QPushButton* found : in.findChildren<QPushButton*>()) {
+    if (found->accessibleName() == accessible_name || found->text() == accessible_name) {
+      if (!found->isHidden()) return found;
+    }
+  }
+  return nullptr;
+}
+
+// ---- numbers
+// -------------------------------------------------------------------------------------
+
+TEST(Numbers, HaveAPointAtMostFourDigitsAndNoGroups) {
+  EXPECT_EQ(number_text(0.0).toStdString(), "0");
+  EXPECT_EQ(number_text(12.3456).toStdString(), "12.35");
+  EXPECT_EQ(number_text(0.0012).toStdString(), "0.0012");
+  EXPECT_EQ(number_text(-24.0).toStdString(), "-24");
+  EXPECT_EQ(number_text(9999.96).toStdString(), "10000");
+  EXPECT_EQ(number_text(2.5e-5).toStdString(), "2.5×10⁻⁵");
+  EXPECT_EQ(number_text(1e-4).toStdString(), "10⁻⁴");
+  EXPECT_EQ(number_text(1e12).toStdString(), "10¹²");
+  EXPECT_EQ(number_text(std::nan("")).toStdString(), "–");
+  EXPECT_EQ(percent_text(0.0234).toStdString(), "2.3 %");
+  EXPECT_EQ(count_text(20000).toStdString(), "20,000");
+}
+
+TEST(Numbers, AreReadWithoutGuessingWhatACommaMeans) {
+  EXPECT_EQ(parse_number(" 12.5 "), 12.5);
+  EXPECT_EQ(parse_number("-1e-3"), -1e-3);
+  EXPECT_EQ(parse_number(".5"), 0.5);
+  for (const char* bad : {"", "1,5", "1,203", "12 mm", "nan", "inf", "0x10", "1e999", "--1", "."}) {
+    EXPECT_FALSE(parse_number(bad)) << bad;
+  }
+}
+
+TEST(Numbers, EditorTextsReadBackAsTheirValue) {
+  for (const double value : {0.0, 1e-5, 2.5e-7, 0.4189, -12.25, 123456.0, 3e12}) {
+    EXPECT_EQ(parse_number(edit_text(value)), value);
+  }
+}
+
+// ---- histogram
+// -----------------------------------------------------------------------------------
+
+class HistogramPanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Histogram histogram;
+    for (int i = 0; i <= 100; ++i) histogram.edges.push_back(i * 0.01);
+    histogram.weights.assign(100, 0.01);
+    histogram.title = "H (1/mm)";
+    panel_.set_histogram(histogram, ColourScale());
+    panel_.set_handles({{"Kmin", "Least", 0.25, 0.0, 1.0, "r = 4 mm"},
+                        {"Kmax", "Most", 0.75, 0.0, 1.0, "r = 1.333 mm"}});
+    show(panel_, 900, 180);
+  }
+
+  /// Value that one pixel is worth.
+  double pixel() const {
+    return 0.5 / (panel_.handle_position(1).x() - panel_.handle_position(0).x());
+  }
+  void press(int handle) {
+    QTest::mousePress(&panel_, Qt::LeftButton, {}, panel_.handle_position(handle));
+  }
+  QLineEdit* editor() const { return panel_.findChild<QLineEdit*>(); }
+
+  HistogramPanel panel_;
+  QSignalSpy dragged_{&panel_, &HistogramPanel::threshold_dragged};
+  QSignalSpy finished_{&panel_, &HistogramPanel::threshold_finished};
+  QSignalSpy cancelled_{&panel_, &HistogramPanel::threshold_cancelled};
+};
+
+TEST_F(HistogramPanelTest, DraggingFollowsTheMouseAndFinishesOnce) {
+  const QPoint start = panel_.handle_position(0);
+  const double pixel_value = pixel();
+  press(0);
+  for (int dx = 10; dx <= 100; dx += 10) QTest::mouseMove(&panel_, start + QPoint(dx, 0));
+  EXPECT_EQ(dragged_.size(), 10);
+  EXPECT_EQ(finished_.size(), 0);
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(100, 0));
+  ASSERT_EQ(finished_.size(), 1);
+  EXPECT_EQ(finished_[0][0].toInt(), 0);
+  EXPECT_NEAR(finished_[0][1].toDouble(), 0.25 + 100 * pixel_value, pixel_value);
+  EXPECT_EQ(dragged_.last()[1].toDouble(), finished_[0][1].toDouble());
+  EXPECT_EQ(panel_.handles()[0].value, finished_[0][1].toDouble());
+  EXPECT_EQ(panel_.handles()[1].value, 0.75);
+  EXPECT_EQ(panel_.handle_position(0).x(), start.x() + 100);
+  EXPECT_EQ(cancelled_.size(), 0);
+}
+
+TEST_F(HistogramPanelTest, DraggedValuesAreWhatTheLabelSays) {
+  const QPoint start = panel_.handle_position(0);
+  press(0);
+  QTest::mouseMove(&panel_, start + QPoint(37, 0));
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(37, 0));
+  ASSERT_EQ(finished_.size(), 1);
+  const double value = finished_[0][1].toDouble();
+  EXPECT_EQ(number_text(value).toDouble(), value);
+}
+
+TEST_F(HistogramPanelTest, AClickMovesNothing) {
+  QTest::mouseClick(&panel_, Qt::LeftButton, {}, panel_.handle_position(1));
+  EXPECT_EQ(dragged_.size() + finished_.size() + cancelled_.size(), 0);
+  EXPECT_EQ(panel_.handles()[1].value, 0.75);
+}
+
+TEST_F(HistogramPanelTest, DraggingStaysInTheHandlesRange) {
+  panel_.set_handles({{"Kmin", "", 0.25, 0.2, 0.5, ""}, {"Kmax", "", 0.75, 0.0, 1.0, ""}});
+  press(0);
+  QTest::mouseMove(&panel_, QPoint(5000, 90));
+  EXPECT_EQ(panel_.handles()[0].value, 0.5);
+  QTest::mouseMove(&panel_, QPoint(-5000, 90));
+  EXPECT_EQ(panel_.handles()[0].value, 0.2);
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, QPoint(0, 90));
+  EXPECT_EQ(finished_.size(), 1);
+}
+
+TEST_F(HistogramPanelTest, ShiftDragsTenTimesFiner) {
+  const QPoint start = panel_.handle_position(0);
+  const double pixel_value = pixel();
+  press(0);
+  QMouseEvent move(QEvent::MouseMove, start + QPoint(50, 0),
+                   panel_.mapToGlobal(start + QPoint(50, 0)), Qt::NoButton, Qt::LeftButton,
+                   Qt::ShiftModifier);
+  QApplication::sendEvent(&panel_, &move);
+  EXPECT_NEAR(panel_.handles()[0].value, 0.25 + 5 * pixel_value, pixel_value);
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(50, 0));
+}
+
+TEST_F(HistogramPanelTest, EscapeRestoresAndTheReleaseThenSaysNothing) {
+  const QPoint start = panel_.handle_position(0);
+  press(0);
+  QTest::mouseMove(&panel_, start + QPoint(80, 0));
+  EXPECT_NE(panel_.handles()[0].value, 0.25);
+  QTest::keyClick(&panel_, Qt::Key_Escape);
+  EXPECT_EQ(panel_.handles()[0].value, 0.25);
+  ASSERT_EQ(cancelled_.size(), 1);
+  EXPECT_EQ(cancelled_[0][0].toInt(), 0);
+  const auto before = dragged_.size();
+  QTest::mouseMove(&panel_, start + QPoint(120, 0));
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(120, 0));
+  EXPECT_EQ(dragged_.size(), before);
+  EXPECT_EQ(finished_.size(), 0);
+  EXPECT_EQ(panel_.handles()[0].value, 0.25);
+}
+
+TEST_F(HistogramPanelTest, AnswersDuringADragDoNotPullTheHandleBack) {
+  const QPoint start = panel_.handle_position(0);
+  press(0);
+  QTest::mouseMove(&panel_, start + QPoint(80, 0));
+  const double value = panel_.handles()[0].value;
+  auto stale = panel_.handles();
+  stale[0].value = 0.26;
+  stale[0].reading = "r = 3.9 mm";
+  panel_.set_handles(stale);
+  EXPECT_EQ(panel_.handles()[0].value, value);
+  EXPECT_EQ(panel_.handles()[0].reading, "r = 3.9 mm");
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(80, 0));
+  EXPECT_EQ(finished_.size(), 1);
+}
+
+TEST_F(HistogramPanelTest, OtherHandlesEndADragInSilence) {
+  press(1);
+  QTest::mouseMove(&panel_, panel_.handle_position(1) - QPoint(80, 0));
+  panel_.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, ""}});
+  QTest::mouseMove(&panel_, QPoint(300, 90));
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, QPoint(300, 90));
+  EXPECT_EQ(finished_.size() + cancelled_.size(), 0);
+  EXPECT_EQ(panel_.handles()[0].value, 0.5);
+}
+
+TEST_F(HistogramPanelTest, TabWalksOverTheHandlesAndArrowsMoveThem) {
+  panel_.setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&panel_, Qt::Key_Right);
+  EXPECT_GT(panel_.handles()[0].value, 0.25);
+  const double small = panel_.handles()[0].value - 0.25;
+  QTest::keyClick(&panel_, Qt::Key_Left);
+  EXPECT_NEAR(panel_.handles()[0].value, 0.25, 1e-12);
+  QTest::keyClick(&panel_, Qt::Key_Tab);  // Ends what was done to the first.
+  EXPECT_EQ(finished_.size(), 1);
+  QTest::keyClick(&panel_, Qt::Key_Left, Qt::ShiftModifier);
+  EXPECT_NEAR(panel_.handles()[0].value, 0.25, 1e-12);
+  EXPECT_GT(0.75 - panel_.handles()[1].value, 5 * small);
+  QTest::keyClick(&panel_, Qt::Key_Return);
+  ASSERT_EQ(finished_.size(), 2);
+  EXPECT_EQ(finished_[1][0].toInt(), 1);
+  EXPECT_EQ(finished_[1][1].toDouble(), panel_.handles()[1].value);
+}
+
+TEST_F(HistogramPanelTest, ManyKeysMakeOneFinish) {
+  panel_.setFocus(Qt::TabFocusReason);
+  for (int i = 0; i < 7; ++i) QTest::keyClick(&panel_, Qt::Key_Right);
+  EXPECT_EQ(dragged_.size(), 7);
+  EXPECT_EQ(finished_.size(), 0);
+  EXPECT_TRUE(finished_.wait(3000));
+  EXPECT_EQ(finished_.size(), 1);
+}
+
+TEST_F(HistogramPanelTest, EscapeTakesStepsBackToo) {
+  panel_.setFocus(Qt::TabFocusReason);
+  for (int i = 0; i < 3; ++i) QTest::keyClick(&panel_, Qt::Key_Right);
+  QTest::keyClick(&panel_, Qt::Key_Escape);
+  EXPECT_EQ(panel_.handles()[0].value, 0.25);
+  EXPECT_EQ(cancelled_.size(), 1);
+  EXPECT_FALSE(finished_.wait(700));
+}
+
+TEST_F(HistogramPanelTest, ATypedNumberIsTakenAsItIs) {
+  panel_.setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&panel_, Qt::Key_Tab);
+  QTest::keyClick(&panel_, Qt::Key_0);
+  ASSERT_TRUE(editor()->isVisible());
+  QTest::keyClicks(editor(), ".612345");
+  QTest::keyClick(editor(), Qt::Key_Return);
+  EXPECT_FALSE(editor()->isVisible());
+  ASSERT_EQ(finished_.size(), 1);
+  EXPECT_EQ(finished_[0][0].toInt(), 1);
+  EXPECT_EQ(finished_[0][1].toDouble(), 0.612345);
+  EXPECT_EQ(panel_.handles()[1].value, 0.612345);
+  EXPECT_TRUE(panel_.hasFocus());
+}
+
+TEST_F(HistogramPanelTest, NumbersThatAreNoneOrOutOfRangeAreNotTaken) {
+  panel_.setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&panel_, Qt::Key_7);
+  QTest::keyClick(editor(), Qt::Key_Return);
+  EXPECT_TRUE(editor()->isVisible());
+  EXPECT_FALSE(editor()->toolTip().isEmpty());
+  QTest::keyClicks(editor(), "x");
+  QTest::keyClick(editor(), Qt::Key_Return);
+  EXPECT_TRUE(editor()->isVisible());
+  QTest::keyClick(editor(), Qt::Key_Escape);
+  EXPECT_FALSE(editor()->isVisible());
+  EXPECT_EQ(finished_.size(), 0);
+  EXPECT_EQ(panel_.handles()[0].value, 0.25);
+}
+
+TEST_F(HistogramPanelTest, DoubleClickOnALabelOpensItsNumber) {
+  const QPoint label = panel_.label_rectangle(1).center();
+  QTest::mouseClick(&panel_, Qt::LeftButton, {}, label);
+  QTest::mouseDClick(&panel_, Qt::LeftButton, {}, label);
+  ASSERT_TRUE(editor()->isVisible());
+  EXPECT_EQ(editor()->text(), "0.75");
+  QTest::keyClicks(editor(), "0,5");  // A comma is typed as the point.
+  EXPECT_EQ(editor()->text(), "0.5");
+  QTest::keyClick(editor(), Qt::Key_Enter);
+  ASSERT_EQ(finished_.size(), 1);
+  EXPECT_EQ(panel_.handles()[1].value, 0.5);
+}
+
+TEST_F(HistogramPanelTest, TheWheelStepsAHandleUnderThePointerOnly) {
+  wheel(panel_, panel_.handle_position(0), 120);
+  EXPECT_GT(panel_.handles()[0].value, 0.25);
+  wheel(panel_, QPoint(panel_.width() / 2, 90), 120);
+  EXPECT_EQ(dragged_.size(), 1);
+  EXPECT_TRUE(finished_.wait(3000));
+  EXPECT_EQ(finished_.size(), 1);
+}
+
+TEST_F(HistogramPanelTest, LabelsNeitherOverlapNorLeaveThePanel) {
+  for (const int width : {900, 500, 320, 260}) {
+    panel_.resize(width, 180);
+    for (const auto& [low, high] : {std::pair(0.0, 0.0), std::pair(0.5, 0.51), std::pair(1.0, 1.0),
+                                    std::pair(0.0, 1.0), std::pair(0.9, 0.1)}) {
+      panel_.set_handles({{"Kmin", "", low, 0.0, 1.0, "r = 123.4 mm"},
+                          {"Kmax", "", high, 0.0, 1.0, "r = 0.001234 mm"},
+                          {"TV_IH", "", 0.5, 0.0, 1.0, "24.0°"}});
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(panel_.rect().contains(panel_.label_rectangle(i))) << width << " " << i;
+        for (int k = 0; k < i; ++k) {
+          EXPECT_FALSE(panel_.label_rectangle(i).intersects(panel_.label_rectangle(k)))
+              << width << " " << low << " " << high;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(HistogramPanelTest, OfTwoHandlesOnOneSpotTheOneWithRoomIsTaken) {
+  panel_.set_handles({{"Kmin", "", 0.0, 0.0, 1.0, ""}, {"Kmax", "", 0.0, 0.0, 1.0, ""}});
+  QPoint start = panel_.handle_position(0);
+  press(0);
+  QTest::mouseMove(&panel_, start + QPoint(60, 0));
+  QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(60, 0));
+  ASSERT_EQ(finished_.size(), 1);
+  EXPECT_EQ(finished_[0][0].toInt(), 1);
+}
+
+TEST(HistogramPanel, TheLowEndOfALogarithmicAxisMeansZero) {
+  HistogramPanel panel;
+  Histogram histogram;
+  for (int i = 0; i <= 60; ++i) histogram.edges.push_back(std::pow(10.0, -6.0 + 0.1 * i));
+  histogram.weights.assign(60, 1.0 / 60);
+  histogram.logarithmic = true;
+  panel.set_histogram(histogram, ColourScale());
+  panel.set_handles({{"Kmin", "", 1e-3, 0.0, 100.0, ""}});
+  show(panel, 900, 180);
+  QTest::mousePress(&panel, Qt::LeftButton, {}, panel.handle_position(0));
+  QTest::mouseMove(&panel, panel.handle_position(0) - QPoint(100, 0));
+  EXPECT_GT(panel.handles()[0].value, 1e-6);
+  EXPECT_LT(panel.handles()[0].value, 1e-3);
+  QTest::mouseMove(&panel, QPoint(0, 90));
+  EXPECT_EQ(panel.handles()[0].value, 0.0);
+  QTest::mouseRelease(&panel, Qt::LeftButton, {}, QPoint(0, 90));
+}
+
+TEST(HistogramPanel, TakesAnyHistogram) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Histogram> odd(7);
+  odd[1].edges = {0, 1, 2};
+  odd[1].weights = {0.5};
+  odd[2].edges = {0, nan, 2};
+  odd[2].weights = {0.5, 0.5};
+  odd[3].edges = {1, 1};
+  odd[3].weights = {1};
+  odd[4].edges = {0, 1};
+  odd[4].weights = {0};
+  odd[5].edges = {-2, -1};
+  odd[5].weights = {1};
+  odd[5].logarithmic = true;
+  odd[6].edges = {0, 1e-300, 1};
+  odd[6].weights = {nan, 1};
+  odd[6].logarithmic = true;
+  HistogramPanel panel;
+  panel.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, ""}, {"TV_IK", "", 1e9, 2.0, 1.0, ""}});
+  for (const Histogram& histogram : odd) {
+    panel.set_histogram(histogram, ColourScale());
+    for (const int width : {10, 240, 900}) {
+      panel.resize(width, 100);
+      EXPECT_FALSE(panel.grab().isNull());
+    }
+    panel.setFocus();
+    QTest::keyClick(&panel, Qt::Key_Right);
+    QTest::mouseClick(&panel, Qt::LeftButton, {}, QPoint(120, 40));
+  }
+}
+
+// ---- colour map
+// ----------------------------------------------------------------------------------
+
+class ColourMapPanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    panel_.set_fields({"Kabs", "H", "Shape"}, {"a", "b", "c"});
+    show(panel_, 320, 460);
+  }
+  QLineEdit* edit(const QString& name) const {
+    for (QLineEdit* found : panel_.findChildren<QLineEdit*>()) {
+      if (found->accessibleName() == name) return found;
+    }
+    return nullptr;
+  }
+  ColourMapPanel panel_;
+  QSignalSpy changed_{&panel_, &ColourMapPanel::changed};
+};
+
+TEST_F(ColourMapPanelTest, SettingTheStateIsNoChangeByTheUser) {
+  ColourMapState state;
+  state.field = 1;
+  state.scale = {ColourMap::diverging, -3.0, 7.25, false, true, 7, Qt::blue, Qt::red, Qt::black};
+  state.range = ColourMapState::Range::typed;
+  state.low_percentile = 40.0;
+  state.high_percentile = 41.5;
+  state.locked = true;
+  panel_.set_state(state);
+  EXPECT_EQ(panel_.state(), state);
+  panel_.set_state(ColourMapState());
+  EXPECT_EQ(panel_.state(), ColourMapState());
+  panel_.set_fields({"K"}, {});
+  EXPECT_EQ(changed_.size(), 0);
+}
+
+TEST_F(ColourMapPanelTest, CombosAndBoxesTellTheNewState) {
+  auto combos = panel_.findChildren<QComboBox*>();
+  ASSERT_EQ(combos.size(), 2);
+  combos[0]->setFocus();
+  QTest::keyClick(combos[0], Qt::Key_Down);
+  ASSERT_EQ(changed_.size(), 1);
+  EXPECT_EQ(panel_.state().field, 1);
+  combos[1]->setFocus();
+  QTest::keyClick(combos[1], Qt::Key_Down);
+  ASSERT_EQ(changed_.size(), 2);
+  EXPECT_EQ(changed_[1][0].value<ColourMapState>().scale.map, ColourMap::viridis);
+  for (QCheckBox* box : panel_.findChildren<QCheckBox*>()) {
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Space);
+  }
+  EXPECT_EQ(changed_.size(), 5);
+  EXPECT_TRUE(panel_.state().locked);
+  EXPECT_TRUE(panel_.state().scale.logarithmic);
+  EXPECT_TRUE(panel_.state().scale.reversed);
+}
+
+TEST_F(ColourMapPanelTest, ATypedEndMakesATypedRange) {
+  QLineEdit* max = edit("Greatest value");
+  ASSERT_NE(max, nullptr);
+  max->setFocus();
+  max->selectAll();
+  QTest::keyClicks(max, "2.5");
+  EXPECT_EQ(changed_.size(), 0);
+  QTest::keyClick(max, Qt::Key_Return);
+  ASSERT_EQ(changed_.size(), 1);
+  EXPECT_EQ(panel_.state().range, ColourMapState::Range::typed);
+  EXPECT_EQ(panel_.state().scale.max, 2.5);
+  QTest::keyClick(max, Qt::Key_Return);
+  EXPECT_EQ(changed_.size(), 1);
+}
+
+TEST_F(ColourMapPanelTest, ARangeThatEndsBeforeItBeginsIsNotTaken) {
+  QLineEdit* max = edit("Greatest value");
+  max->setFocus();
+  max->selectAll();
+  QTest::keyClicks(max, "-4");
+  QTest::keyClick(max, Qt::Key_Return);
+  EXPECT_EQ(changed_.size(), 0);
+  EXPECT_EQ(panel_.state().scale.max, 1.0);
+  EXPECT_TRUE(max->toolTip().contains("above"));
+}
+
+TEST_F(ColourMapPanelTest, PercentilesAreTakenOnEnter) {
+  auto boxes = panel_.findChildren<QDoubleSpinBox*>();
+  ASSERT_EQ(boxes.size(), 2);
+  boxes[0]->setFocus();
+  boxes[0]->selectAll();
+  QTest::keyClicks(boxes[0], "12.5");
+  QTest::keyClick(boxes[0], Qt::Key_Return);
+  ASSERT_EQ(changed_.size(), 1);
+  EXPECT_EQ(panel_.state().low_percentile, 12.5);
+  EXPECT_EQ(panel_.state().range, ColourMapState::Range::percentile);
+}
+
+// ---- table
+// ---------------------------------------------------------------------------------------
+
+class ElementTableTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    table_.set_rows(rows());
+    show(table_, 420, 300);
+  }
+  static std::vector<ElementRow> rows() {
+    return {{7, {7, "convex", 10.5}, Qt::red},
+            {9, {9, "concave", 9.25}, Qt::green},
+            {20, {20, "convex", 100.0}, Qt::blue},
+            {3, {3, "undefined", -2e-5}, {}}};
+  }
+  QTableView* view() const { return table_.findChild<QTableView*>(); }
+  QString cell(int row, int column) const {
+    return view()->model()->index(row, column).data().toString();
+  }
+  QStringList column(int c) const {
+    QStringList list;
+    for (int r = 0; r < view()->model()->rowCount(); ++r) list += cell(r, c);
+    return list;
+  }
+  QString count() const { return table_.findChild<MutedLabel*>()->text(); }
+  void click(int row, Qt::KeyboardModifiers keys = {}) {
+    const QPoint at = view()->visualRect(view()->model()->index(row, 1)).center();
+    QTest::mouseClick(view()->viewport(), Qt::LeftButton, keys, at);
+  }
+  using Ids = std::unordered_set<std::uint32_t>;
+
+  ElementTable table_{"lines", {"Line", "Kind", "Length (mm)"}, {"a", "b", "c"}};
+  QSignalSpy changed_{&table_, &ElementTable::selection_changed};
+  QSignalSpy activated_{&table_, &ElementTable::activated};
+};
+
+TEST_F(ElementTableTest, SortsNumbersByValue) {
+  EXPECT_EQ(column(0), QStringList({"3", "7", "9", "20"}));
+  view()->sortByColumn(2, Qt::AscendingOrder);
+  EXPECT_EQ(column(2), QStringList({"-2×10⁻⁵", "9.25", "10.5", "100"}));
+  view()->sortByColumn(2, Qt::DescendingOrder);
+  EXPECT_EQ(column(0), QStringList({"20", "7", "9", "3"}));
+}
+
+TEST_F(ElementTableTest, TheUsersSelectionIsToldAndTheProgramsIsNot) {
+  click(1);
+  click(3, Qt::ControlModifier);
+  EXPECT_EQ(changed_.size(), 2);
+  EXPECT_EQ(changed_.last()[0].value<Ids>(), (Ids{7, 20}));
+  EXPECT_EQ(count(), "4 lines, 2 selected");
+  table_.set_selected({3, 9, 4711});
+  EXPECT_EQ(table_.selected(), (Ids{3, 9}));
+  EXPECT_EQ(view()->selectionModel()->selectedRows().size(), 2);
+  table_.set_selected({});
+  EXPECT_EQ(count(), "4 lines");
+  EXPECT_EQ(changed_.size(), 2);
+}
+
+TEST_F(ElementTableTest, TheSelectionStaysOverNewRowsSortingAndFiltering) {
+  click(1);  // 7
+  click(3, Qt::ControlModifier);
+  changed_.clear();
+  auto fewer = rows();
+  fewer.erase(fewer.begin() + 2);  // 20 goes
+  fewer.insert(fewer.begin(), {1, {1, "convex", 5.0}, {}});
+  table_.set_rows(fewer);
+  EXPECT_EQ(table_.selected(), Ids{7});
+  ASSERT_EQ(view()->selectionModel()->selectedRows().size(), 1);
+  EXPECT_EQ(view()->selectionModel()->selectedRows()[0].data().toInt(), 7);
+  view()->sortByColumn(2, Qt::DescendingOrder);
+  EXPECT_EQ(table_.selected(), Ids{7});
+  auto* filter = table_.findChild<QLineEdit*>();
+  QTest::keyClicks(filter, "concave");
+  EXPECT_EQ(table_.selected(), Ids{7});
+  EXPECT_EQ(count(), "1 of 4 lines, 1 selected (1 filtered out)");
+  QTest::keyClick(filter, Qt::Key_Escape);
+  ASSERT_EQ(view()->selectionModel()->selectedRows().size(), 1);
+  EXPECT_EQ(view()->selectionModel()->selectedRows()[0].data().toInt(), 7);
+  EXPECT_EQ(changed_.size(), 0);
+}
+
+TEST_F(ElementTableTest, EachWordOfTheFilterMustOccur) {
+  auto* filter = table_.findChild<QLineEdit*>();
+  QTest::keyClicks(filter, "CONVEX");
+  EXPECT_EQ(column(0), QStringList({"7", "20"}));
+  EXPECT_EQ(count(), "2 of 4 lines");
+  QTest::keyClicks(filter, " 10.5");
+  EXPECT_EQ(column(0), QStringList({"7"}));
+}
+
+TEST_F(ElementTableTest, EnterAndDoubleClickActivate) {
+  click(1);
+  QTest::keyClick(view(), Qt::Key_Return);
+  ASSERT_EQ(activated_.size(), 1);
+  EXPECT_EQ(activated_[0][0].toUInt(), 7u);
+  const QPoint at = view()->visualRect(view()->model()->index(2, 1)).center();
+  click(2);
+  QTest::mouseDClick(view()->viewport(), Qt::LeftButton, {}, at);
+  ASSERT_EQ(activated_.size(), 2);
+  EXPECT_EQ(activated_[1][0].toUInt(), 9u);
+}
+
+TEST_F(ElementTableTest, ManyRowsKeepTheirPlace) {
+  std::vector<ElementRow> many;
+  for (std::uint32_t id = 0; id < 20000; ++id) {
+    many.push_back({id, {id, "convex", 0.5 * id}, Qt::red});
+  }
+  table_.set_rows(many);
+  EXPECT_EQ(count(), "20,000 lines");
+  table_.set_selected({15000});
+  const int place = view()->verticalScrollBar()->value();
+  EXPECT_GT(place, 10000);
+  table_.set_rows(many);
+  EXPECT_EQ(view()->verticalScrollBar()->value(), place);
+  EXPECT_EQ(table_.selected(), Ids{15000});
+  EXPECT_EQ(changed_.size(), 0);
+}
+
+// ---- history
+// -------------------------------------------------------------------------------------
+
+class HistoryPanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    show(panel_, 260, 120);
+    set(40, 35);
+  }
+  void set(int count, int current) {
+    std::vector<HistoryRow> rows;
+    for (int i = 0; i < count; ++i) {
+      const auto sequence = static_cast<std::uint32_t>(100 + i);
+      rows.push_back({sequence, QString("Step %1").arg(i), "", i > current, i == current});
+    }
+    panel_.set_rows(rows);
+  }
+  QListWidget* list() const { return panel_.findChild<QListWidget*>(); }
+  bool visible(int row) const {
+    return list()->viewport()->rect().contains(list()->visualItemRect(list()->item(row)).center());
+  }
+  HistoryPanel panel_;
+  QSignalSpy travel_{&panel_, &HistoryPanel::travel};
+};
+
+TEST_F(HistoryPanelTest, KeepsTheCurrentRowInSight) {
+  EXPECT_TRUE(visible(35));
+  set(40, 2);
+  EXPECT_TRUE(visible(2));
+  set(3, 1);
+  EXPECT_EQ(list()->count(), 3);
+  EXPECT_EQ(travel_.size(), 0);
+}
+
+TEST_F(HistoryPanelTest, ClickAndEnterTravel) {
+  const auto click = [&](int row) {
+    QTest::mouseClick(list()->viewport(), Qt::LeftButton, {},
+                      list()->visualItemRect(list()->item(row)).center());
+  };
+  click(35);
+  EXPECT_EQ(travel_.size(), 0);  // One is there already.
+  click(36);
+  ASSERT_EQ(travel_.size(), 1);
+  EXPECT_EQ(travel_[0][0].toUInt(), 136u);
+  set(40, 36);
+  list()->setFocus();
+  QTest::keyClick(list(), Qt::Key_Up);
+  EXPECT_EQ(travel_.size(), 1);
+  QTest::keyClick(list(), Qt::Key_Return);
+  ASSERT_EQ(travel_.size(), 2);
+  EXPECT_EQ(travel_[1][0].toUInt(), 135u);
+}
+
+TEST_F(HistoryPanelTest, RowsMayChangeWithinAClick) {
+  QObject::connect(&panel_, &HistoryPanel::travel, &panel_, [this] { set(2, 0); });
+  QTest::mouseClick(list()->viewport(), Qt::LeftButton, {},
+                    list()->visualItemRect(list()->item(36)).center());
+  EXPECT_EQ(list()->count(), 2);
+}
+
+// ---- steps
+// ---------------------------------------------------------------------------------------
+
+QVariantList interval(double low, double high) { return {low, high}; }
+
+class StepsPanelTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    panel_.set_cards(cards());
+    show(panel_, 260, 700);
+  }
+
+  static StepParameter parameter(const QString& key, const QString& label, StepParameter::Kind kind,
+                                 const QVariant& value) {
+    StepParameter p;
+    p.key = key;
+    p.label = label;
+    p.tooltip = "What it does.";
+    p.kind = kind;
+    p.value = value;
+    p.most = 180.0;
+    return p;
+  }
+
+  static std::vector<StepCard> cards() {
+    using Kind = StepParameter::Kind;
+    StepParameter candidates = parameter("candidates", "Candidates", Kind::choice, QString("ring"));
+    candidates.choices = {"ring", "best", "all"};
+    candidates.choice_labels = {"Edges of the vertex and its ring", "Best edge", "All edges"};
+    StepParameter angle = parameter("angle", "Angle TV_IH", Kind::real, 24.123456);
+    angle.suffix = " °";
+    return {
+        {"simplify", "Simplify", "Later.", StepState::unavailable, "", "", {}},
+        {"find_sharp_lines",
+         "Sharp lines",
+         "Finds lines.",
+         StepState::done,
+         "137 lines, 1,203 edges",
+         "0.12 s",
+         {angle, candidates, parameter("min_length", "Shortest line", Kind::whole, 3)}},
+        {"find_partitions",
+         "Partitions",
+         "",
+         StepState::out_of_date,
+         "42 partitions",
+         "1.04 s",
+         {parameter("intervals", "Intervals", Kind::intervals,
+                    QVariantList{QVariant(interval(0.0, 1.0)), QVariant(interval(2.0, 3.0))})}},
+    };
+  }
+  template <class T>
+  T* editor(const QString& name, int index = 0) const {
+    for (T* found : panel_.findChildren<T*>()) {
+      if (found->accessibleName() == name && !found->isHidden() && index-- == 0) return found;
+    }
+    return nullptr;
+  }
+  static void type(QDoubleSpinBox* box, const QString& text) {
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, text);
+  }
+
+  StepsPanel panel_;
+  QSignalSpy run_{&panel_, &StepsPanel::run_requested};
+};
+
+TEST_F(StepsPanelTest, RunGivesTheValuesAsEdited) {
+  type(editor<QDoubleSpinBox>("Angle TV_IH"), "18.5");
+  QComboBox* combo = editor<QComboBox>("Candidates");
+  combo->setFocus();
+  QTest::keyClick(combo, Qt::Key_Down);
+  QTest::mouseClick(button(panel_, "Run Sharp lines"), Qt::LeftButton);
+  ASSERT_EQ(run_.size(), 1);
+  EXPECT_EQ(run_[0][0].toString(), "find_sharp_lines");
+  const QVariantMap expected{{"angle", 18.5}, {"candidates", "best"}, {"min_length", 3}};
+  EXPECT_EQ(run_[0][1].toMap(), expected);
+  EXPECT_EQ(panel_.values("find_sharp_lines"), expected);
+}
+
+TEST_F(StepsPanelTest, AValueNobodyEditedKeepsAllItsDigits) {
+  EXPECT_EQ(panel_.values("find_sharp_lines")["angle"].toDouble(), 24.123456);
+  QTest::mouseClick(button(panel_, "Run Sharp lines"), Qt::LeftButton);
+  EXPECT_EQ(run_[0][1].toMap()["angle"].toDouble(), 24.123456);
+}
+
+TEST_F(StepsPanelTest, NewCardsLeaveTypingAndEditsAlone) {
+  QDoubleSpinBox* angle = editor<QDoubleSpinBox>("Angle TV_IH");
+  type(angle, "18.");
+  auto news = cards();
+  news[1].state = StepState::out_of_date;
+  news[1].result = "140 lines";
+  news[1].parameters[0].value = 30.0;
+  panel_.set_cards(news);
+  EXPECT_TRUE(angle->hasFocus());
+  EXPECT_EQ(angle->text(), "18. °");
+  QTest::keyClicks(angle, "5");
+  editor<QComboBox>("Candidates")->setFocus();
+  panel_.set_cards(news);  // The same value again is no news.
+  EXPECT_EQ(panel_.values("find_sharp_lines")["angle"].toDouble(), 18.5);
+  news[1].parameters[0].value = 31.0;
+  panel_.set_cards(news);
+  EXPECT_EQ(panel_.values("find_sharp_lines")["angle"].toDouble(), 31.0);
+}
+
+TEST_F(StepsPanelTest, TheWheelScrollsThePanelAndTurnsNoEditorWithoutFocus) {
+  QDoubleSpinBox* angle = editor<QDoubleSpinBox>("Angle TV_IH");
+  editor<QComboBox>("Candidates")->setFocus();
+  const double before = angle->value();
+  wheel(*angle, angle->rect().center(), 120);
+  EXPECT_EQ(angle->value(), before);
+  angle->setFocus();
+  wheel(*angle, angle->rect().center(), 120);
+  EXPECT_GT(angle->value(), before);
+}
+
+TEST_F(StepsPanelTest, IntervalsAreAddedEditedAndDropped) {
+  const auto intervals = [&] { return panel_.values("find_partitions")["intervals"].toList(); };
+  for (QToolButton* add : panel_.findChildren<QToolButton*>()) {
+    if (add->text().startsWith("+")) QTest::mouseClick(add, Qt::LeftButton);
+  }
+  ASSERT_EQ(intervals().size(), 3);
+  type(editor<QDoubleSpinBox>("Interval from", 2), "5");
+  type(editor<QDoubleSpinBox>("Interval to", 2), "6.5");
+  EXPECT_EQ(intervals()[2].toList(), interval(5.0, 6.5));
+  QTest::mouseClick(editor<QToolButton>("Drop interval", 0), Qt::LeftButton);
+  ASSERT_EQ(intervals().size(), 2);
+  EXPECT_EQ(intervals()[0].toList(), interval(2.0, 3.0));
+}
+
+TEST_F(StepsPanelTest, AnIntervalThatEndsBeforeItBeginsCannotRun) {
+  QPushButton* run = button(panel_, "Run Partitions");
+  EXPECT_TRUE(run->isEnabled());
+  type(editor<QDoubleSpinBox>("Interval from"), "7");
+  EXPECT_FALSE(run->isEnabled());
+  EXPECT_TRUE(run->toolTip().contains("interval"));
+  type(editor<QDoubleSpinBox>("Interval to"), "8");
+  EXPECT_TRUE(run->isEnabled());
+}
+
+TEST_F(StepsPanelTest, BusyTurnsRunOff) {
+  panel_.set_busy(true);
+  panel_.set_cards(cards());
+  EXPECT_FALSE(button(panel_, "Run Sharp lines")->isEnabled());
+  EXPECT_FALSE(button(panel_, "Run all out of date")->isEnabled());
+  panel_.set_busy(false);
+  EXPECT_TRUE(button(panel_, "Run Sharp lines")->isEnabled());
+}
+
+TEST_F(StepsPanelTest, OutOfDateStepsOfferToRunAgain) {
+  QSignalSpy again(&panel_, &StepsPanel::run_out_of_date_requested);
+  QTest::mouseClick(button(panel_, "Run all out of date"), Qt::LeftButton);
+  EXPECT_EQ(again.size(), 1);
+  auto news = cards();
+  news[2].state = StepState::done;
+  panel_.set_cards(news);
+  EXPECT_EQ(button(panel_, "Run all out of date"), nullptr);
+}
+
+TEST_F(StepsPanelTest, AnUnavailableStepHasNoControls) {
+  EXPECT_EQ(button(panel_, "Run Simplify"), nullptr);
+  EXPECT_TRUE(panel_.values("simplify").isEmpty());
+  EXPECT_TRUE(panel_.values("no_such_step").isEmpty());
+  auto news = cards();
+  news[0].state = StepState::not_run;
+  panel_.set_cards(news);
+  EXPECT_NE(button(panel_, "Run Simplify"), nullptr);
+}
+
+TEST_F(StepsPanelTest, CardsMayChangeWithinAClick) {
+  QObject::connect(&panel_, &StepsPanel::run_requested, &panel_,
+                   [this] { panel_.set_cards({cards()[0]}); });
+  QTest::mouseClick(button(panel_, "Run Sharp lines"), Qt::LeftButton);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_EQ(button(panel_, "Run Sharp lines"), nullptr);
+}
+
+TEST_F(StepsPanelTest, ANarrowPanelCutsNothing) {
+  auto* scroll = panel_.findChild<QScrollArea*>();
+  for (const int height : {700, 200}) {
+    panel_.resize(260, height);
+    QApplication::processEvents();
+    EXPECT_LE(scroll->widget()->width(), scroll->viewport()->width());
+    for (const QLabel* label : panel_.findChildren<QLabel*>()) {
+      if (label->isHidden() || label->text().isEmpty()) continue;
+      const QRect text = label->fontMetrics().boundingRect(
+          QRect(0, 0, label->width(), 1000), label->wordWrap() ? int(Qt::TextWordWrap) : 0,
+          label->text());
+      EXPECT_LE(text.width(), label->width()) << label->text().toStdString();
+      EXPECT_LE(text.height(), label->height()) << label->text().toStdString();
+    }
+  }
+}
+
+// ---- start page
+// ----------------------------------------------------------------------------------
+
+TEST(StartPage, SaysWhatIsWanted) {
+  StartPage page;
+  QSignalSpy open(&page, &StartPage::open_wanted), sample(&page, &StartPage::sample_wanted);
+  QSignalSpy recent(&page, &StartPage::recent_wanted);
+  const QString file = "/data/moulds/a very long folder name that nobody can read/blade.stl";
+  page.set_recent({"/data/mould.ply", file});
+  show(page, 900, 700);
+  QTest::mouseClick(button(page, "Open scan…"), Qt::LeftButton);
+  EXPECT_EQ(open.size(), 1);
+  QTest::mouseClick(button(page, "Open the sample mould"), Qt::LeftButton);
+  EXPECT_EQ(sample.size(), 1);
+  QPushButton* entry = button(page, "blade.stl");
+  ASSERT_NE(entry, nullptr);
+  EXPECT_TRUE(entry->toolTip().contains("nobody can read"));
+  QObject::connect(&page, &StartPage::recent_wanted, &page, [&] { page.set_recent({}); });
+  QTest::mouseClick(entry, Qt::LeftButton);
+  ASSERT_EQ(recent.size(), 1);
+  EXPECT_EQ(recent[0][0].toString(), file);
+  EXPECT_EQ(button(page, "mould.ply"), nullptr);
+}
+
+}  // namespace
+}  // namespace arris::ui

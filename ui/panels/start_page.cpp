@@ -1,0 +1,283 @@
+#include "ui/panels/start_page.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <QDir>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QResizeEvent>
+#include <QScrollArea>
+#include <QStyle>
+#include <QStyleOptionButton>
+#include <QVBoxLayout>
+
+#include "ui/panels/controls.h"
+
+namespace arris::ui {
+
+namespace {
+
+constexpr int most_recent = 8;
+constexpr int widest = 820;      // pixels of the column in a wide window
+constexpr int one_column = 640;  // below this the tour goes under the recent files
+
+QFont scaled(const QFont& font, double factor, bool bold) {
+  QFont result = font;
+  result.setPointSizeF(font.pointSizeF() * factor);
+  result.setBold(bold);
+  return result;
+}
+
+/// A recent file: its name, and its folder shortened in the middle.
+class FileButton : public QPushButton {
+ public:
+  FileButton(const QString& file, QWidget* parent) : QPushButton(parent) {
+    const QFileInfo info(file);
+    name_ = info.fileName().isEmpty() ? file : info.fileName();
+    folder_ = QDir::toNativeSeparators(info.path());
+    setToolTip(tr("Open %1").arg(QDir::toNativeSeparators(file)));
+    setAccessibleName(name_);
+    setAutoDefault(false);
+    setFlat(true);
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    setCursor(Qt::PointingHandCursor);
+  }
+
+  QSize sizeHint() const override { return QSize(200, 2 * fontMetrics().height() + 12); }
+  QSize minimumSizeHint() const override { return QSize(80, sizeHint().height()); }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    const QColor accent = palette().color(QPalette::Highlight);
+    if (underMouse() || isDown()) {
+      painter.fillRect(rect(),
+                       mix(palette().color(QPalette::Window), accent, isDown() ? 0.3 : 0.15));
+    }
+    if (hasFocus()) {
+      painter.setPen(QPen(accent, 2));
+      painter.drawRect(rect().adjusted(1, 1, -1, -1));
+    }
+    const QRect inner = rect().adjusted(8, 6, -8, -6);
+    const int line = fontMetrics().height();
+    painter.setPen(palette().color(QPalette::WindowText));
+    painter.drawText(inner.left(), inner.top(), inner.width(), line, Qt::AlignVCenter,
+                     fontMetrics().elidedText(name_, Qt::ElideMiddle, inner.width()));
+    painter.setPen(muted_text(palette()));
+    painter.drawText(inner.left(), inner.top() + line, inner.width(), line, Qt::AlignVCenter,
+                     fontMetrics().elidedText(folder_, Qt::ElideMiddle, inner.width()));
+  }
+
+ private:
+  QString name_, folder_;
+};
+
+/// Number of a step in the tour, in a circle.
+class Number : public QWidget {
+ public:
+  Number(int number, QWidget* parent) : QWidget(parent), number_(number) { setFixedSize(26, 26); }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(palette().color(QPalette::Highlight));
+    painter.drawEllipse(QRectF(1, 1, 24, 24));
+    painter.setPen(palette().color(QPalette::HighlightedText));
+    painter.setFont(scaled(font(), 1.0, true));
+    painter.drawText(rect(), Qt::AlignCenter, QString::number(number_));
+  }
+
+ private:
+  int number_;
+};
+
+/// Where a file may be dropped (in truth anywhere in the window).
+class DropHint : public MutedLabel {
+ public:
+  using MutedLabel::MutedLabel;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    {
+      QPainter painter(this);
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setPen(
+          QPen(mix(palette().color(QPalette::Window), palette().color(QPalette::WindowText), 0.4),
+               1.4, Qt::DashLine));
+      painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), 6, 6);
+    }
+    MutedLabel::paintEvent(event);
+  }
+};
+
+}  // namespace
+
+class StartPage::Private {
+ public:
+  QBoxLayout* columns = nullptr;
+  QBoxLayout* buttons = nullptr;
+  QWidget* page = nullptr;
+  QVBoxLayout* recent = nullptr;
+  MutedLabel* none = nullptr;
+  std::vector<FileButton*> files;
+
+  QLabel* heading(const QString& text) const {
+    auto* label = new QLabel(text, page);
+    label->setFont(scaled(label->font(), 1.15, true));
+    return label;
+  }
+
+  QPushButton* big_button(const QString& text, const QString& tooltip) const {
+    auto* button = new QPushButton(text, page);
+    button->setToolTip(tooltip);
+    button->setFont(scaled(button->font(), 1.15, false));
+    button->setMinimumHeight(48);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    return button;
+  }
+
+  QLayout* tour() const {
+    const std::pair<QString, QString> steps[] = {
+        {tr("Open a scan"),
+         tr("A triangle mesh as PLY, STL, OBJ or OFF. The sample mould will do.")},
+        {tr("Look at the curvature"),
+         tr("Choose a field and a colour map; the histogram shows how it is spread.")},
+        {tr("Tune the sharp lines"),
+         tr("Drag the threshold TV_IH; the lines follow while the mouse moves.")},
+        {tr("Find partitions"), tr("Set Kmin and Kmax; faces in between grow together.")},
+        {tr("Save pictures and lines"), tr("Pictures as on the screen, and the lines as a file.")},
+    };
+    auto* column = new QVBoxLayout;
+    column->setSpacing(10);
+    int number = 0;
+    for (const auto& [title, text] : steps) {
+      auto* row = new QHBoxLayout;
+      row->setSpacing(10);
+      row->addWidget(new Number(++number, page), 0, Qt::AlignTop);
+      auto* words = new QVBoxLayout;
+      words->setSpacing(1);
+      auto* name = new QLabel(title, page);
+      name->setFont(scaled(name->font(), 1.0, true));
+      auto* note = new MutedLabel(text, page);
+      note->setWordWrap(true);
+      words->addWidget(name);
+      words->addWidget(note);
+      row->addLayout(words, 1);
+      column->addLayout(row);
+    }
+    return column;
+  }
+};
+
+StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Private>()) {
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(0, 0, 0, 0);
+  outer->addWidget(scroll);
+
+  auto* ground = new QWidget;
+  scroll->setWidget(ground);
+  p_->page = new QWidget(ground);
+  p_->page->setMaximumWidth(widest);
+  auto* centred = new QHBoxLayout(ground);
+  centred->addStretch(1);
+  centred->addWidget(p_->page, 100);
+  centred->addStretch(1);
+
+  auto* name = new QLabel(QStringLiteral("Arris"), p_->page);
+  name->setFont(scaled(name->font(), 3.0, true));
+  auto* sentence = new QLabel(tr("Finds the sharp lines and the partitions of a scanned mould, and "
+                                 "keeps every step in your "
+                                 "hands."),
+                              p_->page);
+  sentence->setFont(scaled(sentence->font(), 1.15, false));
+  sentence->setWordWrap(true);
+
+  auto* open = p_->big_button(tr("Open scan…"), tr("Opens a scan or a session from a file."));
+  open->setDefault(true);
+  auto* sample = p_->big_button(tr("Open the sample mould"),
+                                tr("Opens a mould that comes with Arris, to try things out."));
+  p_->buttons = new QHBoxLayout;
+  p_->buttons->setSpacing(12);
+  p_->buttons->addWidget(open);
+  p_->buttons->addWidget(sample);
+
+  auto* drop = new DropHint(tr("Drop a file here"), p_->page);
+  drop->setAlignment(Qt::AlignCenter);
+  drop->setMinimumHeight(56);
+  drop->setToolTip(tr("PLY, STL, OBJ and OFF files can be dropped anywhere in this window."));
+
+  auto* left = new QVBoxLayout;
+  left->setSpacing(6);
+  left->addWidget(p_->heading(tr("Recent files")));
+  p_->none = new MutedLabel(tr("What you open will be listed here."), p_->page);
+  p_->none->setWordWrap(true);
+  left->addWidget(p_->none);
+  p_->recent = new QVBoxLayout;
+  p_->recent->setSpacing(0);
+  left->addLayout(p_->recent);
+  left->addStretch(1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(10);
+  right->addWidget(p_->heading(tr("In five steps")));
+  right->addLayout(p_->tour());
+  right->addStretch(1);
+  p_->columns = new QHBoxLayout;
+  p_->columns->setSpacing(32);
+  p_->columns->addLayout(left, 1);
+  p_->columns->addLayout(right, 1);
+
+  auto* column = new QVBoxLayout(p_->page);
+  column->setContentsMargins(20, 28, 20, 20);
+  column->setSpacing(8);
+  column->addStretch(1);
+  column->addWidget(name);
+  column->addWidget(sentence);
+  column->addSpacing(14);
+  column->addLayout(p_->buttons);
+  column->addSpacing(4);
+  column->addWidget(drop);
+  column->addSpacing(20);
+  column->addLayout(p_->columns);
+  column->addStretch(2);
+
+  connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
+  connect(sample, &QPushButton::clicked, this, &StartPage::sample_wanted);
+}
+
+StartPage::~StartPage() = default;
+
+void StartPage::set_recent(const QStringList& files) {
+  for (FileButton* button : p_->files) {
+    // Maybe it is a click on one of them that leads here.
+    button->hide();
+    button->deleteLater();
+  }
+  p_->files.clear();
+  for (const QString& file : files.first(std::min<qsizetype>(files.size(), most_recent))) {
+    auto* button = new FileButton(file, p_->page);
+    connect(button, &QPushButton::clicked, this, [this, file] { emit recent_wanted(file); });
+    p_->recent->addWidget(button);
+    p_->files.push_back(button);
+  }
+  p_->none->setVisible(files.isEmpty());
+}
+
+void StartPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const auto direction = width() < one_column ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight;
+  p_->columns->setDirection(direction);
+  p_->buttons->setDirection(width() < 440 ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+}
+
+}  // namespace arris::ui

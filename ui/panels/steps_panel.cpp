@@ -1,0 +1,734 @@
+#include "ui/panels/steps_panel.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include <QApplication>
+#include <QEvent>
+#include <QFrame>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/panels/controls.h"
+
+namespace arris::ui {
+
+namespace {
+
+QString state_word(StepState state) {
+  switch (state) {
+    case StepState::unavailable:
+      return QObject::tr("Coming later");
+    case StepState::not_run:
+      return QObject::tr("Not run");
+    case StepState::done:
+      return QObject::tr("Done");
+    case StepState::out_of_date:
+      return QObject::tr("Out of date");
+  }
+  return {};
+}
+
+QColor state_colour(StepState state, const QPalette& palette) {
+  const bool dark = palette.color(QPalette::Base).lightness() < 128;
+  switch (state) {
+    case StepState::done:
+      return dark ? QColor(80, 175, 100) : QColor(38, 128, 60);
+    case StepState::out_of_date:
+      return dark ? QColor(235, 170, 60) : QColor(190, 110, 0);
+    default:
+      return muted_text(palette);
+  }
+}
+
+/// The state as a mark that differs by shape, not by colour alone.
+class StateIcon : public QWidget {
+ public:
+  explicit StateIcon(QWidget* parent) : QWidget(parent) { setFixedSize(18, 18); }
+
+  void set_state(StepState state) {
+    state_ = state;
+    setToolTip(state_word(state));
+    update();
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QColor colour = state_colour(state_, palette());
+    const QColor paper = card_ground(palette());
+    const QRectF circle(1.5, 1.5, 15, 15);
+    switch (state_) {
+      case StepState::unavailable:
+        painter.setPen(QPen(colour, 1.4, Qt::DotLine));
+        painter.drawEllipse(circle);
+        return;
+      case StepState::not_run:
+        painter.setPen(QPen(colour, 1.6));
+        painter.drawEllipse(circle);
+        return;
+      case StepState::done: {
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(colour);
+        painter.drawEllipse(circle.adjusted(-0.5, -0.5, 0.5, 0.5));
+        painter.setPen(QPen(paper, 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+        const QPointF check[] = {{5.2, 9.4}, {8.0, 12.2}, {13.0, 6.4}};
+        painter.drawPolyline(check, 3);
+        return;
+      }
+      case StepState::out_of_date: {
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(colour);
+        const QPointF triangle[] = {{9, 1}, {17.5, 16.5}, {0.5, 16.5}};
+        painter.drawPolygon(triangle, 3);
+        painter.setPen(QPen(paper, 2.0, Qt::SolidLine, Qt::RoundCap));
+        painter.drawLine(QPointF(9, 6.8), QPointF(9, 11));
+        painter.drawPoint(QPointF(9, 14));
+        return;
+      }
+    }
+  }
+
+ private:
+  StepState state_ = StepState::not_run;
+};
+
+/// The way from one step to the next.
+class Arrow : public QWidget {
+ public:
+  explicit Arrow(QWidget* parent) : QWidget(parent) { setFixedHeight(10); }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QColor colour =
+        mix(palette().color(QPalette::Window), palette().color(QPalette::WindowText), 0.4);
+    const double x = 19.0;
+    painter.setPen(QPen(colour, 1.4));
+    painter.drawLine(QPointF(x, 0), QPointF(x, 6));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    const QPointF head[] = {{x - 4, 4.5}, {x + 4, 4.5}, {x, 9.5}};
+    painter.drawPolygon(head, 3);
+  }
+};
+
+/// A parameter's editor. Until the user changes it, its value is the very value it was given, with
+/// all the digits that the editor does not show.
+class Field {
+ public:
+  explicit Field(StepParameter parameter) : parameter_(std::move(parameter)) {}
+  virtual ~Field() = default;
+
+  virtual QWidget* widget() const = 0;
+  virtual bool wide() const { return false; }  // Takes a line of its own under the label.
+  /// What is wrong with the values, as a sentence; empty if nothing is.
+  virtual QString mistake() const { return {}; }
+
+  QVariant value() { return touched_ ? read() : parameter_.value; }
+  void ran() {
+    parameter_.value = value();
+    touched_ = false;
+  }
+  void touch() {
+    touched_ = true;
+    if (edited) edited();
+  }
+
+  bool fits(const StepParameter& other) const {
+    return parameter_.key == other.key && parameter_.kind == other.kind &&
+           parameter_.label == other.label && parameter_.tooltip == other.tooltip &&
+           parameter_.least == other.least && parameter_.most == other.most &&
+           parameter_.decimals == other.decimals && parameter_.suffix == other.suffix &&
+           parameter_.choices == other.choices && parameter_.choice_labels == other.choice_labels;
+  }
+
+  /// A new value from the document is shown unless the user is at work here. The same value again
+  /// is no news: what the user has edited and not yet run stays.
+  void update(const QVariant& value) {
+    if (value == parameter_.value) return;
+    parameter_.value = value;
+    const QWidget* focus = QApplication::focusWidget();
+    const bool focused = focus != nullptr && (focus == widget() || widget()->isAncestorOf(focus));
+    if (touched_ && focused) return;
+    touched_ = false;
+    show();
+  }
+
+  std::function<void()> edited;
+
+ protected:
+  virtual QVariant read() = 0;
+  virtual void show() = 0;
+
+  StepParameter parameter_;
+
+ private:
+  bool touched_ = false;
+};
+
+QString with_range(const StepParameter& p) {
+  if (p.most <= p.least) return p.tooltip;
+  const QString range =
+      QObject::tr("From %1 to %2%3.").arg(number_text(p.least), number_text(p.most), p.suffix);
+  return p.tooltip.isEmpty() ? range : p.tooltip + QLatin1Char('\n') + range;
+}
+
+NumberBox* number_box(const StepParameter& p, QWidget* parent) {
+  auto* box = new NumberBox(parent);
+  box->setDecimals(p.decimals);
+  box->setRange(p.least, std::max(p.least, p.most));
+  box->setToolTip(with_range(p));
+  box->setAccessibleName(p.label);
+  return box;
+}
+
+class RealField : public Field {
+ public:
+  RealField(const StepParameter& parameter, QWidget* parent)
+      : Field(parameter), box_(number_box(parameter, parent)) {
+    box_->setSuffix(parameter.suffix);
+    show();
+    QObject::connect(box_, &NumberBox::edited, box_, [this] { touch(); });
+  }
+  QWidget* widget() const override { return box_; }
+
+ protected:
+  QVariant read() override {
+    box_->interpretText();
+    return box_->value();
+  }
+  void show() override { box_->setValue(parameter_.value.toDouble()); }
+
+ private:
+  NumberBox* box_;
+};
+
+class WholeField : public Field {
+ public:
+  WholeField(const StepParameter& parameter, QWidget* parent)
+      : Field(parameter), box_(new WholeBox(parent)) {
+    box_->setRange(static_cast<int>(parameter.least),
+                   static_cast<int>(std::max(parameter.least, parameter.most)));
+    box_->setSuffix(parameter.suffix);
+    box_->setToolTip(with_range(parameter));
+    box_->setAccessibleName(parameter.label);
+    show();
+    QObject::connect(box_, &WholeBox::edited, box_, [this] { touch(); });
+  }
+  QWidget* widget() const override { return box_; }
+
+ protected:
+  QVariant read() override {
+    box_->interpretText();
+    return box_->value();
+  }
+  void show() override { box_->setValue(parameter_.value.toInt()); }
+
+ private:
+  WholeBox* box_;
+};
+
+class ChoiceField : public Field {
+ public:
+  ChoiceField(const StepParameter& parameter, QWidget* parent)
+      : Field(parameter), box_(new QuietCombo(parent)) {
+    for (int i = 0; i < parameter.choices.size(); ++i) {
+      const QString& key = parameter.choices[i];
+      box_->addItem(parameter.choice_labels.value(i, key), key);
+      box_->setItemData(i, box_->itemText(i), Qt::ToolTipRole);
+    }
+    box_->setToolTip(parameter.tooltip);
+    box_->setAccessibleName(parameter.label);
+    show();
+    QObject::connect(box_, &QComboBox::activated, box_, [this] { touch(); });
+  }
+  QWidget* widget() const override { return box_; }
+
+ protected:
+  QVariant read() override { return box_->currentData().toString(); }
+  void show() override { box_->setCurrentIndex(box_->findData(parameter_.value.toString())); }
+
+ private:
+  QuietCombo* box_;
+};
+
+/// Rows of "from – to" with a button to drop each, and one to add.
+class IntervalsField : public Field {
+ public:
+  IntervalsField(const StepParameter& parameter, QWidget* parent)
+      : Field(parameter), frame_(new QWidget(parent)), column_(new QVBoxLayout(frame_)) {
+    column_->setContentsMargins(0, 0, 0, 0);
+    column_->setSpacing(3);
+    add_ = new QToolButton(frame_);
+    add_->setText(QObject::tr("+ Add interval"));
+    add_->setToolTip(
+        QObject::tr("One more interval; they run one after the other over what is "
+                    "left."));
+    add_->setFocusPolicy(Qt::StrongFocus);
+    add_->setAutoRaise(true);
+    column_->addWidget(add_, 0, Qt::AlignLeft);
+    show();
+    QObject::connect(add_, &QToolButton::clicked, frame_, [this] {
+      double low = parameter_.least, high = parameter_.most;
+      if (!rows_.empty()) {
+        low = rows_.back().high->value();
+        high = std::min(parameter_.most, 2.0 * low - rows_.back().low->value());
+      }
+      add_row(low, std::max(low, high));
+      rows_.back().low->setFocus();
+      touch();
+    });
+  }
+
+  QWidget* widget() const override { return frame_; }
+  bool wide() const override { return true; }
+
+  QString mistake() const override {
+    for (const Row& row : rows_) {
+      if (number(row.low) > number(row.high)) {
+        return QObject::tr("An interval must end above where it begins.");
+      }
+    }
+    return rows_.empty() ? QObject::tr("Add an interval first.") : QString();
+  }
+
+ protected:
+  QVariant read() override {
+    QVariantList list;
+    for (const Row& row : rows_) {
+      row.low->interpretText();
+      row.high->interpretText();
+      list.append(QVariant(QVariantList{row.low->value(), row.high->value()}));
+    }
+    return list;
+  }
+
+  void show() override {
+    const QVariantList list = parameter_.value.toList();
+    while (rows_.size() > static_cast<std::size_t>(list.size())) drop_row(rows_.back().frame);
+    for (int i = 0; i < list.size(); ++i) {
+      const QVariantList ends = list[i].toList();
+      const double low = ends.value(0).toDouble(), high = ends.value(1).toDouble();
+      if (i < static_cast<int>(rows_.size())) {
+        rows_[i].low->setValue(low);
+        rows_[i].high->setValue(high);
+      } else {
+        add_row(low, high);
+      }
+    }
+  }
+
+ private:
+  struct Row {
+    QWidget* frame;
+    NumberBox *low, *high;
+    QToolButton* drop;
+  };
+
+  /// The number as typed so far.
+  static double number(const NumberBox* box) { return box->valueFromText(box->text()); }
+
+  void add_row(double low, double high) {
+    auto* frame = new QWidget(frame_);
+    auto* line = new QHBoxLayout(frame);
+    line->setContentsMargins(0, 0, 0, 0);
+    line->setSpacing(4);
+    Row row{frame, number_box(parameter_, frame), number_box(parameter_, frame),
+            new QToolButton(frame)};
+    for (NumberBox* box : {row.low, row.high}) {
+      box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+      box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    }
+    row.low->setAccessibleName(QObject::tr("Interval from"));
+    row.high->setAccessibleName(QObject::tr("Interval to"));
+    row.low->setValue(low);
+    row.high->setValue(high);
+    row.drop->setText(QStringLiteral("−"));
+    row.drop->setToolTip(QObject::tr("Drops this interval."));
+    row.drop->setAccessibleName(QObject::tr("Drop interval"));
+    row.drop->setFocusPolicy(Qt::StrongFocus);
+    row.drop->setAutoRaise(true);
+    line->addWidget(row.low);
+    line->addWidget(new QLabel(QStringLiteral("–"), frame));
+    line->addWidget(row.high);
+    line->addWidget(row.drop);
+    rows_.push_back(row);
+    column_->insertWidget(column_->count() - 1, frame);
+    QWidget::setTabOrder(row.drop, add_);
+    for (NumberBox* box : {row.low, row.high}) {
+      QObject::connect(box, &NumberBox::edited, frame_, [this] { touch(); });
+    }
+    QObject::connect(row.drop, &QToolButton::clicked, frame_, [this, frame] {
+      drop_row(frame);
+      touch();
+    });
+    allow_drop();
+  }
+
+  void drop_row(QWidget* frame) {
+    std::erase_if(rows_, [frame](const Row& row) { return row.frame == frame; });
+    frame->hide();
+    frame->deleteLater();
+    allow_drop();
+  }
+
+  void allow_drop() {
+    for (const Row& row : rows_) row.drop->setEnabled(rows_.size() > 1);
+  }
+
+  QWidget* frame_;
+  QVBoxLayout* column_;
+  QToolButton* add_ = nullptr;
+  std::vector<Row> rows_;
+};
+
+std::unique_ptr<Field> make_field(const StepParameter& parameter, QWidget* parent) {
+  switch (parameter.kind) {
+    case StepParameter::Kind::real:
+      return std::make_unique<RealField>(parameter, parent);
+    case StepParameter::Kind::whole:
+      return std::make_unique<WholeField>(parameter, parent);
+    case StepParameter::Kind::choice:
+      return std::make_unique<ChoiceField>(parameter, parent);
+    case StepParameter::Kind::intervals:
+      return std::make_unique<IntervalsField>(parameter, parent);
+  }
+  return nullptr;
+}
+
+/// One step. The frame is painted from the palette, so that it follows light and dark.
+class CardFrame : public QWidget {
+ public:
+  CardFrame(const StepCard& card, QWidget* parent);
+
+  bool fits(const StepCard& card) const;
+  void show_card(const StepCard& card);
+  void set_busy(bool busy) {
+    busy_ = busy;
+    allow_run();
+  }
+  QVariantMap values() const {
+    QVariantMap map;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      map.insert(card_.parameters[i].key, fields_[i]->value());
+    }
+    return map;
+  }
+  const StepCard& card() const { return card_; }
+
+  std::function<void()> run;
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  void resizeEvent(QResizeEvent*) override { arrange_form(); }
+
+ private:
+  bool available() const { return card_.state != StepState::unavailable; }
+  void allow_run();
+  void build_controls(QVBoxLayout* column);
+  void arrange_form();
+
+  StepCard card_;
+  bool busy_ = false;
+  StateIcon* icon_ = nullptr;
+  QLabel *title_ = nullptr, *result_ = nullptr;
+  MutedLabel* state_ = nullptr;
+  QPushButton* run_ = nullptr;
+  QGridLayout* form_ = nullptr;
+  std::vector<QLabel*> labels_;
+  std::vector<std::unique_ptr<Field>> fields_;
+  std::vector<bool> beside_;  // The editor stands beside its label, not under it.
+};
+
+CardFrame::CardFrame(const StepCard& card, QWidget* parent) : QWidget(parent), card_(card) {
+  auto* column = new QVBoxLayout(this);
+  auto* head = new QHBoxLayout;
+  head->setSpacing(8);
+  icon_ = new StateIcon(this);
+  title_ = available() ? new QLabel(this) : new MutedLabel({}, this);
+  title_->setWordWrap(true);
+  head->addWidget(icon_, 0, available() ? Qt::AlignTop : Qt::AlignVCenter);
+  head->addWidget(title_, 1);
+  column->addLayout(head);
+  if (available()) {
+    column->setContentsMargins(10, 9, 10, 9);
+    column->setSpacing(6);
+    QFont bold = font();
+    bold.setBold(true);
+    title_->setFont(bold);
+    build_controls(column);
+  } else {
+    column->setContentsMargins(10, 3, 10, 3);
+    state_ = new MutedLabel({}, this);
+    head->addWidget(state_);
+  }
+  show_card(card);
+}
+
+void CardFrame::build_controls(QVBoxLayout* column) {
+  result_ = new QLabel(this);
+  result_->setWordWrap(true);
+  result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column->addWidget(result_);
+  form_ = new QGridLayout;
+  form_->setHorizontalSpacing(8);
+  form_->setVerticalSpacing(4);
+  form_->setColumnStretch(1, 1);
+  for (const StepParameter& parameter : card_.parameters) {
+    fields_.push_back(make_field(parameter, this));
+    Field* field = fields_.back().get();
+    field->edited = [this] { allow_run(); };
+    const bool unit = field->wide() && !parameter.suffix.trimmed().isEmpty();
+    auto* label =
+        new QLabel(unit ? QStringLiteral("%1 (%2)").arg(parameter.label, parameter.suffix.trimmed())
+                        : parameter.label,
+                   this);
+    label->setToolTip(parameter.tooltip);
+    label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    if (!field->wide()) label->setBuddy(field->widget());
+    labels_.push_back(label);
+  }
+  if (!fields_.empty()) column->addLayout(form_);
+  arrange_form();
+  auto* foot = new QHBoxLayout;
+  state_ = new MutedLabel({}, this);
+  state_->setWordWrap(true);
+  run_ = new QPushButton(QObject::tr("Run"), this);
+  run_->setAutoDefault(false);
+  run_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+  run_->setAccessibleName(QObject::tr("Run %1").arg(card_.title));
+  foot->addWidget(state_, 1, Qt::AlignVCenter);
+  foot->addWidget(run_);
+  column->addLayout(foot);
+  QObject::connect(run_, &QPushButton::clicked, this, [this] {
+    allow_run();
+    if (run_->isEnabled() && run) run();
+  });
+}
+
+/// Editors stand beside their labels in two columns; one that would be cut there goes under its
+/// label, over the whole width.
+void CardFrame::arrange_form() {
+  if (form_ == nullptr) return;
+  const QMargins margins = contentsMargins() + layout()->contentsMargins();
+  const int room = width() - margins.left() - margins.right() - form_->horizontalSpacing();
+  const auto label_width = [this](std::size_t i) {
+    return fontMetrics().horizontalAdvance(labels_[i]->text()) + 2;
+  };
+  const auto editor_width = [this](std::size_t i) {
+    return fields_[i]->widget()->sizeHint().width();
+  };
+  std::vector<bool> beside(fields_.size());
+  for (std::size_t i = 0; i < fields_.size(); ++i) beside[i] = !fields_[i]->wide();
+  int labels = 0;
+  while (true) {
+    labels = 0;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (beside[i]) labels = std::max(labels, label_width(i));
+    }
+    // The row that needs most goes first, until the others fit.
+    std::size_t worst = fields_.size();
+    bool cut = false;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (!beside[i]) continue;
+      cut = cut || labels + editor_width(i) > room;
+      if (worst == fields_.size() ||
+          label_width(i) + editor_width(i) > label_width(worst) + editor_width(worst)) {
+        worst = i;
+      }
+    }
+    if (!cut) break;
+    beside[worst] = false;
+  }
+  form_->setColumnMinimumWidth(0, labels);
+  for (std::size_t i = 0; i < fields_.size(); ++i) labels_[i]->setWordWrap(label_width(i) > room);
+  if (beside == beside_) return;
+  beside_ = beside;
+  int row = 0;
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    QWidget* editor = fields_[i]->widget();
+    form_->removeWidget(labels_[i]);
+    form_->removeWidget(editor);
+    form_->addWidget(labels_[i], row, 0, 1, beside[i] ? 1 : 2);
+    if (!beside[i]) ++row;
+    form_->addWidget(editor, row++, beside[i] ? 1 : 0, 1, beside[i] ? 1 : 2);
+  }
+}
+
+bool CardFrame::fits(const StepCard& card) const {
+  return card.name == card_.name && card.title == card_.title &&
+         (card.state == StepState::unavailable) == !available() &&
+         (!available() ||
+          std::equal(card.parameters.begin(), card.parameters.end(), fields_.begin(), fields_.end(),
+                     [](const StepParameter& p, const std::unique_ptr<Field>& field) {
+                       return field->fits(p);
+                     }));
+}
+
+void CardFrame::show_card(const StepCard& card) {
+  card_ = card;
+  setToolTip(card.tooltip);
+  icon_->set_state(card.state);
+  title_->setText(card.title);
+  QString state = state_word(card.state);
+  if (available()) {
+    if (!card.time.isEmpty()) state += QStringLiteral(" · ") + card.time;
+    result_->setText(card.result);
+    result_->setVisible(!card.result.isEmpty());
+    for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->update(card.parameters[i].value);
+    allow_run();
+  }
+  state_->setText(state);
+  update();
+}
+
+void CardFrame::allow_run() {
+  if (run_ == nullptr) return;
+  QString mistake;
+  for (const auto& field : fields_) {
+    if (mistake.isEmpty()) mistake = field->mistake();
+  }
+  run_->setEnabled(!busy_ && mistake.isEmpty());
+  run_->setToolTip(!mistake.isEmpty() ? mistake
+                                      : (busy_ ? QObject::tr("Another step is at work.")
+                                               : QObject::tr("Runs this step with these values.")));
+}
+
+void CardFrame::paintEvent(QPaintEvent*) {
+  if (!available()) return;
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor paper = card_ground(palette());
+  const bool late = card_.state == StepState::out_of_date;
+  painter.setPen(late ? QPen(state_colour(card_.state, palette()), 1.4)
+                      : QPen(mix(paper, palette().color(QPalette::Text), 0.28), 1.0));
+  painter.setBrush(paper);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.7, 0.7, -0.7, -0.7), 5, 5);
+}
+
+}  // namespace
+
+class StepsPanel::Private {
+ public:
+  StepsPanel* q = nullptr;
+  QPushButton* run_late = nullptr;
+  QScrollArea* scroll = nullptr;
+  QWidget* content = nullptr;
+  QVBoxLayout* column = nullptr;
+  std::vector<CardFrame*> frames;
+  std::vector<Arrow*> arrows;
+  bool busy = false;
+
+  CardFrame* make(const StepCard& card) {
+    auto* frame = new CardFrame(card, content);
+    frame->set_busy(busy);
+    frame->run = [this, frame] { emit q->run_requested(frame->card().name, frame->values()); };
+    return frame;
+  }
+
+  static void discard(QWidget* widget) {
+    // Maybe it is one of its own buttons that leads here.
+    widget->hide();
+    widget->deleteLater();
+  }
+
+  void rebuild(const std::vector<StepCard>& cards) {
+    for (CardFrame* frame : frames) discard(frame);
+    for (Arrow* arrow : arrows) discard(arrow);
+    frames.clear();
+    arrows.clear();
+    while (QLayoutItem* item = column->takeAt(0)) delete item;
+    for (const StepCard& card : cards) {
+      if (!frames.empty()) {
+        arrows.push_back(new Arrow(content));
+        column->addWidget(arrows.back());
+      }
+      frames.push_back(make(card));
+      column->addWidget(frames.back());
+    }
+    column->addStretch(1);
+  }
+};
+
+StepsPanel::StepsPanel(QWidget* parent) : QWidget(parent), p_(std::make_unique<Private>()) {
+  p_->q = this;
+  p_->run_late = new QPushButton(tr("Run all out of date"), this);
+  p_->run_late->setToolTip(
+      tr("Runs again, from top to bottom, each step that is out of date because an earlier one "
+         "changed."));
+  p_->run_late->setAutoDefault(false);
+  p_->run_late->hide();
+  p_->content = new QWidget;
+  p_->column = new QVBoxLayout(p_->content);
+  p_->column->setContentsMargins(6, 6, 6, 6);
+  p_->column->setSpacing(0);
+  p_->scroll = new QScrollArea(this);
+  p_->scroll->setWidgetResizable(true);
+  p_->scroll->setFrameShape(QFrame::NoFrame);
+  p_->scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  p_->scroll->setFocusPolicy(Qt::NoFocus);
+  p_->scroll->setWidget(p_->content);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  auto* head = new QVBoxLayout;
+  head->setContentsMargins(6, 6, 6, 0);
+  head->addWidget(p_->run_late);
+  column->addLayout(head);
+  column->addWidget(p_->scroll, 1);
+  setMinimumWidth(240);
+  connect(p_->run_late, &QPushButton::clicked, this, &StepsPanel::run_out_of_date_requested);
+}
+
+StepsPanel::~StepsPanel() = default;
+
+void StepsPanel::set_cards(const std::vector<StepCard>& cards) {
+  const bool same = std::equal(
+      cards.begin(), cards.end(), p_->frames.begin(), p_->frames.end(),
+      [](const StepCard& card, const CardFrame* frame) { return card.name == frame->card().name; });
+  if (!same) {
+    const int down = p_->scroll->verticalScrollBar()->value();
+    p_->rebuild(cards);
+    p_->scroll->verticalScrollBar()->setValue(down);
+  } else {
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+      if (p_->frames[i]->fits(cards[i])) {
+        p_->frames[i]->show_card(cards[i]);
+        continue;
+      }
+      CardFrame* old = p_->frames[i];
+      p_->frames[i] = p_->make(cards[i]);
+      delete p_->column->replaceWidget(old, p_->frames[i]);
+      Private::discard(old);
+    }
+  }
+  p_->run_late->setVisible(std::any_of(cards.begin(), cards.end(), [](const StepCard& card) {
+    return card.state == StepState::out_of_date;
+  }));
+}
+
+void StepsPanel::set_busy(bool busy) {
+  p_->busy = busy;
+  p_->run_late->setEnabled(!busy);
+  for (CardFrame* frame : p_->frames) frame->set_busy(busy);
+}
+
+QVariantMap StepsPanel::values(const QString& step) const {
+  for (const CardFrame* frame : p_->frames) {
+    if (frame->card().name == step) return frame->values();
+  }
+  return {};
+}
+
+}  // namespace arris::ui

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include <QImage>
+#include <QSize>
+
+#include <vtkNew.h>
+
+#include "ui/view/scene.h"
+#include "ui/view/view_camera.h"
+
+class QOpenGLContext;
+class QOpenGLExtraFunctions;
+class QOpenGLTextureBlitter;
+class vtkGenericOpenGLRenderWindow;
+
+namespace arris::ui {
+
+/// All that touches OpenGL: drives VTK in a context that Qt owns. Everything but the constructor
+/// and started() needs that context to be current.
+class GlCanvas {
+ public:
+  explicit GlCanvas(Scene& scene);
+  ~GlCanvas();
+  GlCanvas(const GlCanvas&) = delete;
+  GlCanvas& operator=(const GlCanvas&) = delete;
+
+  bool started() const { return context_ != nullptr; }
+  /// Takes the current context. After release() it may be called again with another one.
+  void start(QOpenGLContext* context);
+  void release();
+
+  struct Frame {
+    ViewCamera camera;
+    QSize pixels;
+    double pixel_ratio = 1.0;
+    bool coarse = false;
+    bool operator==(const Frame&) const = default;
+  };
+  /// Draws into VTK's own buffer. Where only lines changed since the last frame they alone are drawn,
+  /// over a kept picture of the surface.
+  void draw(const Frame& frame);
+  /// Milliseconds that the last frame with the whole surface took.
+  double surface_time() const { return surface_time_; }
+
+  /// Copies what was drawn into a frame buffer of the same size, opaque, and lays `overlay` over it.
+  void show(const QImage& overlay, unsigned int frame_buffer);
+  /// What was drawn, premultiplied; null if GL failed.
+  QImage read();
+  /// Whether the driver has buffers that large.
+  bool is_possible(QSize pixels);
+
+ private:
+  void render();
+  bool keep_surface(bool restore);
+  void release_kept();
+  void lay_over(const QImage& overlay);
+
+  Scene& scene_;
+  QOpenGLContext* context_ = nullptr;
+  QOpenGLExtraFunctions* gl_ = nullptr;
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  std::unique_ptr<QOpenGLTextureBlitter> blitter_;
+  unsigned int overlay_texture_ = 0;
+  qint64 overlay_key_ = 0;
+  double surface_time_ = 0.0;
+  QSize size_;
+
+  // A copy of VTK's buffer, colour and depth, before lines are drawn.
+  unsigned int kept_buffer_ = 0;
+  std::array<unsigned int, 2> kept_parts_{};
+  QSize kept_size_;
+  int kept_samples_ = 0;
+  bool kept_refused_ = false;  // by the driver
+  bool kept_valid_ = false;
+  Frame kept_frame_;
+  std::uint64_t kept_version_ = 0;
+};
+
+}  // namespace arris::ui

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include <QSizeF>
+
+#include "ui/view/mesh_view.h"
+
+class QPainter;
+
+namespace arris::ui {
+
+/// What is written over the part.
+struct Overlay {
+  bool dark = false;
+  std::optional<ViewField> field;  ///< Nullopt: no scalar bar.
+  bool field_has_undefined = false;
+  std::set<LineType> line_types;   ///< In the legend.
+  bool scale_bar = true;
+  bool orientation_marker = true;
+  double units_per_pixel = 1.0;    ///< Mesh unit per pixel of the painter.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< See ViewCamera::axes().
+  bool operator==(const Overlay&) const = default;
+};
+
+/// Paints into a view of `size`; what does not fit is left out, nothing overlaps.
+void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay);
+
+/// A number with three significant digits, as an engineer writes it: 0.0123, 4.5·10⁻⁶.
+QString short_number(double value);
+/// Round values (1, 2, 5 times a power of ten) for about `wanted` ticks between the ends of a
+/// scale.
+std::vector<double> tick_values(const ColourScale& scale, int wanted);
+/// The largest of 1, 2, 5 times a power of ten that is not above `most`.
+double round_length(double most);
+
+}  // namespace arris::ui

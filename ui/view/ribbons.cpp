@@ -1,0 +1,286 @@
+#include "ui/view/ribbons.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLVertexBufferObject.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUniforms.h>
+
+namespace arris::ui {
+namespace {
+
+constexpr std::size_t most_strokes = 8;
+
+// Each segment is a quad; its four vertices hold one end, the other end, and which corner they are:
+// 0 and 1 at the first end, 2 and 3 at the second.
+constexpr const char* vertex_code = R"(
+//VTK::System::Dec
+in vec4 vertexMC;
+in vec3 otherMC;
+in vec4 cornerMC;   // corner, arc length here, arc length at the other end, stroke
+in vec3 firstMC;    // normals of the faces on both sides
+in vec3 secondMC;
+uniform mat4 MCDCMatrix;
+//VTK::CustomUniforms::Dec
+out vec2 place;            // pixels along and across, from the first end
+flat out float len;        // pixels
+flat out vec2 arc;         // arc lengths of the first and the second end
+flat out vec4 shape;       // half width with the layer's, dash, period; pixel ratio
+flat out vec4 paint;
+void main()
+{
+  bool second = cornerMC.x > 1.5;
+  float side = mod(cornerMC.x, 2.0) < 0.5 ? 1.0 : -1.0;
+  vec4 stroke = strokeShapes[int(cornerMC.w + 0.5)];
+  float radius = (stroke.x + grow) * pixelRatio;
+  float rim = radius + 1.0;
+  vec4 here = MCDCMatrix * vertexMC;
+  vec4 there = MCDCMatrix * vec4(otherMC, 1.0);
+  vec2 half_size = 0.5 * viewportSize;
+  vec2 along = (there.xy - here.xy) * half_size;
+  if (second) along = -along;
+  len = length(along);
+  along = len > 1e-4 ? along / len : vec2(1.0, 0.0);
+  vec2 across = vec2(-along.y, along.x);
+  vec2 shift = (second ? along : -along) * rim + across * side * rim;
+  place = vec2(second ? len + rim : -rim, side * rim);
+  arc = second ? cornerMC.zy : cornerMC.yz;
+  shape = vec4(radius, stroke.yz, pixelRatio);
+  paint = layerPaint.a > 0.0 ? layerPaint : strokePaints[int(cornerMC.w + 0.5)];
+  bool front = max(dot(firstMC, towardsViewer), dot(secondMC, towardsViewer)) > 0.0;
+  float lift = front ? frontLift * radius : backLift * pixelRatio;
+  gl_Position = here;
+  gl_Position.xy += shift / half_size;
+  gl_Position.z -= (lift + layerLift * pixelRatio) * depthPerPixel;
+}
+)";
+
+// Dashes lie along the arc length in the mesh's unit; dashUnit of it stands for one pixel. That
+// changes by powers of two, so that dashes keep their place while one zooms.
+constexpr const char* fragment_code = R"(
+//VTK::System::Dec
+//VTK::Output::Dec
+//VTK::CustomUniforms::Dec
+in vec2 place;
+flat in float len;
+flat in vec2 arc;
+flat in vec4 shape;
+flat in vec4 paint;
+void main()
+{
+  float beyond = max(max(-place.x, place.x - len), 0.0);
+  if (shape.z > 0.0) {
+    float share = len > 1e-4 ? clamp(place.x / len, 0.0, 1.0) : 0.0;
+    float at = mod(mix(arc.x, arc.y, share) / dashUnit, shape.z);
+    float gap = at <= shape.y ? 0.0 : min(at - shape.y, shape.z - at);
+    float units = abs(arc.y - arc.x) / dashUnit;
+    beyond += gap * (units > 1e-4 ? min(len / units, 4.0 * shape.w) : shape.w);
+  }
+  float rim = shape.x - length(vec2(beyond, place.y));
+  float cover = clamp(rim + 0.5, 0.0, 1.0);
+  if (cover <= 0.0) discard;
+  gl_FragData[0] = vec4(paint.rgb, paint.a * cover);
+}
+)";
+
+vtkSmartPointer<vtkFloatArray> floats(const char* name, int components, std::size_t tuples) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+  return array;
+}
+
+Eigen::Vector3f face_normal(const Mesh& mesh, FaceId face) {
+  const Triangle& t = mesh.triangle(face);
+  const Point& a = mesh.point(t[0]);
+  return (mesh.point(t[1]) - a).cross(mesh.point(t[2]) - a).normalized().cast<float>();
+}
+
+/// Normals of the faces beside the segment; of the faces about its ends where it is no edge.
+std::array<Eigen::Vector3f, 2> side_normals(const Mesh& mesh, VertexId from, VertexId to) {
+  std::array<Eigen::Vector3f, 2> result{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  if (const auto edge = mesh.find_edge(from, to)) {
+    const auto faces = mesh.edge_faces(*edge);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (faces[k] != no_id) result[k] = face_normal(mesh, faces[k]);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (faces[k] == no_id) result[k] = result[1 - k];
+    }
+    return result;
+  }
+  const std::array<VertexId, 2> ends{from, to};
+  for (std::size_t k = 0; k < 2; ++k) {
+    mesh.for_ring(ends[k], [&](HalfEdgeId h) {
+      if (mesh.face(h) != no_id) result[k] += face_normal(mesh, mesh.face(h));
+    });
+  }
+  return result;
+}
+
+void uniform4(vtkUniforms* uniforms, const char* name, const QColor& colour) {
+  const std::array<float, 4> value =
+      colour.isValid() ? std::array{static_cast<float>(colour.redF()),
+                                    static_cast<float>(colour.greenF()),
+                                    static_cast<float>(colour.blueF()),
+                                    static_cast<float>(colour.alphaF())}
+                       : std::array{0.0F, 0.0F, 0.0F, 0.0F};
+  uniforms->SetUniform4f(name, value.data());
+}
+
+}  // namespace
+
+void keep_coordinates(vtkPolyDataMapper* mapper) {
+  if (auto* gl_mapper = vtkOpenGLPolyDataMapper::SafeDownCast(mapper)) {
+    gl_mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+  }
+}
+
+Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
+                 const std::vector<StrokeLayer>& layers)
+    : strokes_(std::move(strokes)), layers_(layers) {
+  strokes_.resize(most_strokes);
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data_);
+    mapper->ScalarVisibilityOff();
+    keep_coordinates(mapper);
+    mapper->SetResolveCoincidentTopologyToOff();
+    for (const char* name : {"otherMC", "cornerMC", "firstMC", "secondMC"}) {
+      mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS);
+    }
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->ForceOpaqueOn();
+    actor->GetProperty()->LightingOff();
+    actor->VisibilityOff();
+    actor->GetShaderProperty()->SetVertexShaderCode(vertex_code);
+    actor->GetShaderProperty()->SetFragmentShaderCode(fragment_code);
+    vtkUniforms* uniforms = actor->GetShaderProperty()->GetVertexCustomUniforms();
+    std::array<float[4], most_strokes> shapes{};
+    std::array<float[4], most_strokes> paints{};
+    for (std::size_t i = 0; i < most_strokes; ++i) {
+      const Stroke& stroke = strokes_[i];
+      shapes[i][0] = stroke.half_width;
+      shapes[i][1] = stroke.dash;
+      shapes[i][2] = stroke.period;
+      const QColor colour = stroke.colour.isValid() ? stroke.colour : QColor(Qt::black);
+      paints[i][0] = static_cast<float>(colour.redF());
+      paints[i][1] = static_cast<float>(colour.greenF());
+      paints[i][2] = static_cast<float>(colour.blueF());
+      paints[i][3] = 1.0F;
+    }
+    uniforms->SetUniform4fv("strokeShapes", most_strokes, shapes.data());
+    uniforms->SetUniform4fv("strokePaints", most_strokes, paints.data());
+    uniforms->SetUniformf("grow", layers_[k].grow);
+    uniform4(uniforms, "layerPaint", layers_[k].colour);
+    uniforms->SetUniformf("layerLift", 0.5F * static_cast<float>(k));
+    uniforms->SetUniformf("frontLift", static_cast<float>(front_lift));
+    uniforms->SetUniformf("backLift", static_cast<float>(back_lift));
+    renderer->AddActor(actor);
+    actors_.push_back(actor);
+  }
+  update({});
+}
+
+Ribbons::~Ribbons() = default;
+
+void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector<Line>& lines) {
+  std::size_t segments = 0;
+  for (const Line& line : lines) segments += std::max<std::size_t>(line.vertices->size(), 1) - 1;
+  const auto points = floats("points", 3, 4 * segments);
+  const auto other = floats("otherMC", 3, 4 * segments);
+  const auto corner = floats("cornerMC", 4, 4 * segments);
+  const auto first = floats("firstMC", 3, 4 * segments);
+  const auto second = floats("secondMC", 3, 4 * segments);
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(2 * segments + 1));
+  vtkNew<vtkTypeInt32Array> corners;
+  corners->SetNumberOfValues(static_cast<vtkIdType>(6 * segments));
+  for (std::size_t i = 0; i <= 2 * segments; ++i) {
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(3 * i));
+  }
+  std::size_t segment = 0;
+  for (const Line& line : lines) {
+    double arc = 0.0;
+    for (std::size_t i = 0; i + 1 < line.vertices->size(); ++i, ++segment) {
+      const std::array<VertexId, 2> ends{(*line.vertices)[i], (*line.vertices)[i + 1]};
+      const Point a = mesh.point(ends[0]) - origin;
+      const Point b = mesh.point(ends[1]) - origin;
+      const double next = arc + (b - a).norm();
+      const auto normals = side_normals(mesh, ends[0], ends[1]);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto at = static_cast<vtkIdType>(4 * segment + k);
+        const bool at_second = k > 1;
+        const Eigen::Vector3f here = (at_second ? b : a).cast<float>();
+        const Eigen::Vector3f there = (at_second ? a : b).cast<float>();
+        points->SetTypedTuple(at, here.data());
+        other->SetTypedTuple(at, there.data());
+        corner->SetTuple4(at, static_cast<double>(k), at_second ? next : arc,
+                          at_second ? arc : next, line.stroke);
+        first->SetTypedTuple(at, normals[0].data());
+        second->SetTypedTuple(at, normals[1].data());
+      }
+      constexpr std::array<int, 6> quad{0, 1, 2, 2, 1, 3};
+      for (std::size_t k = 0; k < quad.size(); ++k) {
+        corners->SetValue(static_cast<vtkIdType>(6 * segment + k),
+                          static_cast<std::int32_t>(4 * segment) + quad[k]);
+      }
+      arc = next;
+    }
+  }
+  vtkNew<vtkPoints> shell;
+  shell->SetData(points);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets.Get(), corners.Get());
+  data_->Initialize();
+  data_->SetPoints(shell);
+  data_->SetPolys(cells);
+  for (const auto& array : {other, corner, first, second}) data_->GetPointData()->AddArray(array);
+  empty_ = segments == 0;
+  set_visible(visible_);
+}
+
+void Ribbons::clear() {
+  data_->Initialize();
+  empty_ = true;
+  set_visible(visible_);
+}
+
+void Ribbons::set_visible(bool visible) {
+  visible_ = visible;
+  for (const auto& actor : actors_) actor->SetVisibility(visible && !empty_);
+}
+
+void Ribbons::update(const RibbonFrame& frame) {
+  const double dash_unit = std::exp2(std::round(std::log2(frame.units_per_pixel)));
+  const std::array<float, 2> viewport{static_cast<float>(frame.viewport[0]),
+                                      static_cast<float>(frame.viewport[1])};
+  const Eigen::Vector3f towards = frame.towards_viewer.cast<float>();
+  for (const auto& actor : actors_) {
+    vtkUniforms* uniforms = actor->GetShaderProperty()->GetVertexCustomUniforms();
+    uniforms->SetUniformf("pixelRatio", static_cast<float>(frame.pixel_ratio));
+    uniforms->SetUniform2f("viewportSize", viewport.data());
+    uniforms->SetUniform3f("towardsViewer", towards.data());
+    uniforms->SetUniformf("depthPerPixel",
+                          static_cast<float>(frame.depth_per_unit * frame.units_per_pixel /
+                                             frame.pixel_ratio));
+    actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
+        "dashUnit", static_cast<float>(dash_unit));
+  }
+}
+
+}  // namespace arris::ui

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include <QColor>
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include "core/mesh/mesh.h"
+
+class vtkActor;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderer;
+
+namespace arris::ui {
+
+/// How one kind of line is drawn. Lengths in pixels at a device pixel ratio of 1.
+struct Stroke {
+  float half_width = 1.0F;
+  float dash = 0.0F;    ///< Length drawn, without its round ends; 0 with a period: dots.
+  float period = 0.0F;  ///< 0: solid.
+  QColor colour;
+};
+
+/// Lines of one layer are all under those of the next.
+struct StrokeLayer {
+  float grow = 0.0F;  ///< Pixels wider than the stroke on each side.
+  QColor colour;      ///< Invalid: the stroke's.
+};
+
+/// What a frame needs to know to draw lines; see ViewCamera.
+struct RibbonFrame {
+  double pixel_ratio = 1.0;       ///< Device pixels per pixel of the strokes.
+  double units_per_pixel = 1.0;   ///< Mesh unit per pixel of the strokes.
+  double depth_per_unit = 1.0;    ///< Depth in device coordinates per mesh unit.
+  std::array<int, 2> viewport{};  ///< Device pixels.
+  Point towards_viewer = Point::UnitZ();
+};
+
+/// How far lines are drawn in front of the surface they lie on, in half-widths where the surface
+/// faces the viewer, so that a surface that rises beside the line does not cover it; and in pixels
+/// where it faces away, so that no line shows through a thin wall.
+inline constexpr double front_lift = 2.5;
+inline constexpr double back_lift = 0.6;
+
+/// Hands coordinates to the shaders as they are: VTK may scale them otherwise.
+void keep_coordinates(vtkPolyDataMapper* mapper);
+
+/// Polylines drawn as camera-facing bands of constant width in pixels, with round joins and round
+/// dashes, smooth at their rims. (Line stipple does not exist in core OpenGL, and wide lines only
+/// here and there.)
+class Ribbons {
+ public:
+  Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
+          const std::vector<StrokeLayer>& layers);
+  ~Ribbons();
+  Ribbons(const Ribbons&) = delete;
+  Ribbons& operator=(const Ribbons&) = delete;
+
+  struct Line {
+    const std::vector<VertexId>* vertices;
+    int stroke;
+  };
+  /// `origin` is subtracted from the points of the mesh.
+  void set_lines(const Mesh& mesh, const Point& origin, const std::vector<Line>& lines);
+  void clear();
+  void set_visible(bool visible);
+  void update(const RibbonFrame& frame);
+
+ private:
+  std::vector<Stroke> strokes_;
+  std::vector<StrokeLayer> layers_;
+  std::vector<vtkSmartPointer<vtkActor>> actors_;
+  vtkNew<vtkPolyData> data_;
+  bool visible_ = true;
+  bool empty_ = true;
+};
+
+}  // namespace arris::ui

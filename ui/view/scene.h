@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <unordered_set>
+#include <vector>
+
+#include <QColor>
+#include <QSize>
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include "ui/view/coarse_mesh.h"
+#include "ui/view/mesh_view.h"
+#include "ui/view/ribbons.h"
+#include "ui/view/view_camera.h"
+
+class vtkActor;
+class vtkFloatArray;
+class vtkImageData;
+class vtkLookupTable;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderer;
+class vtkTexture;
+class vtkUnsignedCharArray;
+
+namespace arris::ui {
+
+/// How each type of line is drawn, in the order of LineType; also what the legend shows.
+const std::vector<Stroke>& line_strokes();
+
+/// What VTK draws: the surface and its net in one renderer, the lines over them in another, so that
+/// lines can be drawn anew over a kept picture of the surface. Points are relative to the middle of
+/// the mesh, which keeps them exact in single precision.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  void set_mesh(MeshPtr mesh);
+  void set_coarse(std::shared_ptr<const CoarseMesh> coarse);
+  void set_field(const std::optional<ViewField>& field);
+  void set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
+  void set_selected_labels(std::unordered_set<std::uint32_t> labels);
+  void set_lines(const std::vector<ViewLine>& lines);
+  void set_selected_lines(const std::vector<ViewLine>& lines,
+                          const std::unordered_set<std::uint32_t>& ids);
+  void set_lines_visible(bool visible);
+  void set_edges_visible(bool visible);
+  /// Two colours from the bottom to the top; one where they are alike; alpha 0: transparent.
+  void set_ground(const QColor& bottom, const QColor& top);
+
+  bool labels_shown() const { return !labels_.empty(); }
+
+  /// Prepares a frame. `pixels`: its size; `pixel_ratio`: device pixels per pixel of line widths.
+  /// `coarse` draws the stand-in, where there is one.
+  void prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, bool coarse);
+  /// Counts the changes to all that is not a line.
+  std::uint64_t surface_version() const { return surface_version_; }
+
+  vtkRenderer* surface_renderer() { return surface_renderer_; }
+  vtkRenderer* line_renderer() { return line_renderer_; }
+
+ private:
+  struct Shape;
+  void upload_geometry();
+  void build_net();
+  void show_field();
+  void show_class_field();
+  void show_scale_field();
+  void show_edge_field();
+  void show_labels();
+  void outline_selection();
+  void refresh();
+
+  MeshPtr mesh_;
+  std::shared_ptr<const CoarseMesh> coarse_;
+  Point origin_ = Point::Zero();
+  double radius_ = 1.0;
+  std::optional<ViewField> field_;
+  std::vector<std::uint32_t> labels_;
+  std::vector<QColor> label_colours_;
+  std::unordered_set<std::uint32_t> selected_labels_;
+  bool edges_visible_ = false;
+  bool stale_ = true;        // colours have to be made again before the next frame
+  bool coarse_shown_ = false;
+  std::uint64_t surface_version_ = 0;
+
+  vtkNew<vtkRenderer> surface_renderer_;
+  vtkNew<vtkRenderer> line_renderer_;
+  std::unique_ptr<Shape> fine_;
+  std::unique_ptr<Shape> rough_;
+  vtkNew<vtkTexture> texture_;
+  vtkNew<vtkImageData> texture_image_;
+  vtkNew<vtkPolyData> net_data_;
+  vtkNew<vtkPolyDataMapper> net_mapper_;
+  vtkNew<vtkActor> net_;
+  bool net_built_ = false;
+  Ribbons lines_;
+  Ribbons selected_lines_;
+  Ribbons label_outline_;
+};
+
+}  // namespace arris::ui
