@@ -272,7 +272,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("segment", "Find sharp lines and partitions; defaults come from the part");
   double sharp_angle = 0.0, min_length = 0.0;
   int candidates = 0;
-  std::uint32_t min_faces = 0;
+  std::uint32_t min_faces = 0, fill_holes = 0;
   std::string criterion;
   std::vector<std::string> intervals;
   segment_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
@@ -297,6 +297,8 @@ int main(int argc, char** argv) {
   CLI::Option* faces_option =
       segment_command->add_option("--min-faces", min_faces, "Smaller partitions are not kept")
           ->check(CLI::PositiveNumber);
+  CLI::Option* fill_option = segment_command->add_option(
+      "--fill-holes", fill_holes, "Unassigned areas with fewer faces join a neighbour; 0: none");
 
   CLI::App* replay_command = app.add_subcommand("replay", "Run a journal or list of operations");
   replay_command->add_option("OPERATIONS", operations, "A file of operations, one JSON a line")
@@ -325,6 +327,7 @@ int main(int argc, char** argv) {
   if (*length_option) lines["min_length"] = min_length;
   if (*criterion_option) partitions["criterion"] = criterion;
   if (*faces_option) partitions["min_faces"] = min_faces;
+  if (*fill_option) partitions["fill_holes"] = fill_holes;
 
   if (*info_command) return info(scan, as_json);
   if (*curvature_command) return curvature(scan, output);

@@ -32,8 +32,8 @@ struct LoadReport {
   std::uint64_t components = 0;
   std::int64_t euler_number = 0;  ///< V - E + F without isolated vertices.
 
-  // Found, and what was done about it. Ascending, each once; of a polygon with more than three
-  // corners it may be only some of its triangles that were left out or turned.
+  // Found, and what was done about it. All but `copies` are ascending, each once; of a polygon with
+  // more than three corners it may be only some of its triangles that were left out or turned.
   std::vector<std::uint32_t> split_polygons;    ///< Polygons of more than 3 corners, triangulated.
   std::vector<std::uint32_t> degenerate_faces;  ///< Repeated vertex or < 3 corners: left out.
   std::vector<std::uint32_t> zero_area_faces;   ///< Three distinct vertices in a line: kept.

@@ -74,4 +74,10 @@ std::uint32_t default_min_faces(const Mesh& mesh) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(mesh.face_count() / 2000, 1, 50));
 }
 
+// Filling under 0, 50, 200, 400 and 1000 faces gave a mean IoU of 0.40, 0.46, 0.47, 0.47 and 0.47 over
+// the five scans with known faces (38k to 99k faces), at 67, 80, 86, 89 and 94 % assigned area.
+std::uint32_t default_fill_holes(const Mesh& mesh) {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(mesh.face_count() / 100, 4, 400));
+}
+
 }  // namespace arris

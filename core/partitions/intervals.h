@@ -18,4 +18,7 @@ std::vector<CurvatureInterval> default_intervals(const Mesh& mesh, const Curvatu
 /// Faces below which a partition on this part is rather noise than an area.
 std::uint32_t default_min_faces(const Mesh& mesh);
 
+/// Faces below which an unassigned area on this part is rather a speck of noise than an area.
+std::uint32_t default_fill_holes(const Mesh& mesh);
+
 }  // namespace arris

@@ -60,9 +60,16 @@ class Propagation {
     }
   }
 
+  FoundPartitions finish(const PartitionOptions& options) {
+    join_faces_without_vote();
+    if (options.fill_holes > 0) fill_holes(options.fill_holes);
+    return std::move(found_);
+  }
+
+ private:
   /// Faces without a regular vertex: round after round, each joins the partition across its longest
   /// edge that is not sharp.
-  FoundPartitions finish() {
+  void join_faces_without_vote() {
     std::vector<FaceId> left;
     for (FaceId f = 0; f < mesh_.face_count(); ++f)
       if (votes_[f] == 0) left.push_back(f);
@@ -78,18 +85,60 @@ class Propagation {
         else
           joined.emplace_back(f, label);
       }
-      for (const auto& [f, label] : joined) {
-        found_.labels[f] = label;
-        Partition& partition = found_.partitions[label - 1];
-        ++partition.faces;
-        partition.area += face_area(mesh_, f);
-      }
+      for (const auto& [f, label] : joined) assign(f, label);
       left = std::move(still);
     } while (!joined.empty());
-    return std::move(found_);
   }
 
- private:
+  void fill_holes(std::uint32_t limit) {
+    std::vector<bool> seen(mesh_.face_count(), false);
+    std::vector<std::pair<std::vector<FaceId>, std::uint32_t>> holes;  // with the label to take
+    std::vector<std::pair<std::uint32_t, double>> shared;              // border with each partition
+    for (FaceId start = 0; start < mesh_.face_count(); ++start) {
+      if (seen[start] || found_.labels[start] != unassigned) continue;
+      front_.assign(1, start);
+      seen[start] = true;
+      shared.clear();
+      for (std::size_t next = 0; next < front_.size(); ++next) {
+        HalfEdgeId h = mesh_.face_half_edge(front_[next]);
+        for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+          const FaceId f = mesh_.face(Mesh::opposite(h));
+          if (f == no_id || lines_.is_sharp(h >> 1)) continue;
+          if (found_.labels[f] != unassigned)
+            shared.emplace_back(found_.labels[f], mesh_.edge_length(h >> 1));
+          else if (!seen[f]) {
+            seen[f] = true;
+            front_.push_back(f);
+          }
+        }
+      }
+      if (front_.size() >= limit || shared.empty()) continue;
+      std::stable_sort(shared.begin(), shared.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::uint32_t best = unassigned;
+      double longest = -1.0;
+      for (std::size_t k = 0; k < shared.size();) {
+        const std::uint32_t label = shared[k].first;
+        double length = 0.0;
+        for (; k < shared.size() && shared[k].first == label; ++k) length += shared[k].second;
+        if (length > longest) {
+          longest = length;
+          best = label;
+        }
+      }
+      holes.emplace_back(front_, best);
+    }
+    for (const auto& [faces, label] : holes)
+      for (const FaceId f : faces) assign(f, label);
+  }
+
+  void assign(FaceId f, std::uint32_t label) {
+    found_.labels[f] = label;
+    Partition& partition = found_.partitions[label - 1];
+    ++partition.faces;
+    partition.area += face_area(mesh_, f);
+  }
+
   FaceId across_longest(FaceId f) const {
     FaceId across = no_id;
     double longest = -1.0;
@@ -181,7 +230,7 @@ Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<dou
     context.report(static_cast<double>(k + 1) / static_cast<double>(options.intervals.size() + 1),
                    "partitions");
   }
-  FoundPartitions found = propagation.finish();
+  FoundPartitions found = propagation.finish(options);
   context.report(1.0, "partitions");
   return found;
 }

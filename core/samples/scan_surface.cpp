@@ -108,7 +108,7 @@ std::vector<Point> throw_darts(const HeightField& field, double spacing, Random&
 class Triangulation {
  public:
   Triangulation(const std::vector<Point>& points, const Cells& cells)
-      : space_(points), cells_(cells), hints_(cells.count(), 0) {
+      : space_(points), cells_(cells), hints_(cells.count(), none) {
     plane_.reserve(points.size() + 3);
     for (const Point& p : points) plane_.push_back(p.head<2>());
     const Vector2d centre =
@@ -156,7 +156,8 @@ class Triangulation {
       return std::abs(height(0, 0) - middle.z()) / Point(slope_x, slope_y, 1.0).norm();
     };
     swap_while([&](const Quad& q) {
-      return off(q.a, q.d) < off(q.b, q.c) - least && largest_angle(q.a, q.b, q.d) < widest &&
+      const double now = off(q.b, q.c);
+      return now > least && off(q.a, q.d) < now - least && largest_angle(q.a, q.b, q.d) < widest &&
              largest_angle(q.a, q.d, q.c) < widest;
     });
   }
@@ -187,6 +188,7 @@ class Triangulation {
 
   FaceId locate(const Vector2d& p) const {
     FaceId f = hints_[cells_.index(p)];
+    if (f == none) f = last_;
     for (std::size_t step = 0; step < faces_.size(); ++step) {
       const Face& face = faces_[f];
       int out = -1;
@@ -223,7 +225,7 @@ class Triangulation {
       suspects.push_back(s);
       suspects.push_back(other);
     }
-    hints_[cells_.index(p)] = f;
+    hints_[cells_.index(p)] = last_ = f;
   }
 
   double largest_angle(VertexId a, VertexId b, VertexId c) const {
@@ -239,15 +241,20 @@ class Triangulation {
     VertexId a, b, c, d;
   };
 
+  /// Sweeps over the faces until no side is to be swapped; looks again only where something
+  /// changed.
   template <class IsBetter>
   void swap_while(const IsBetter& is_better) {
     constexpr double least_turn = 1e-6;  // mm^2; no faces that are next to vertical or folded
+    std::vector<char> fresh(faces_.size(), 1);
     for (bool changed = true; changed;) {
       changed = false;
-      for (FaceId f = 0; f < faces_.size(); ++f)
+      for (FaceId f = 0; f < faces_.size(); ++f) {
+        if (!fresh[f]) continue;
+        fresh[f] = 0;
         for (int k = 0; k < 3; ++k) {
           const FaceId g = faces_[f].beyond[k];
-          if (g == none || g < f || !is_real(f) || !is_real(g)) continue;
+          if (g == none || !is_real(f) || !is_real(g)) continue;
           const Triangle& t = faces_[f].corners;
           const Quad q{t[k], t[(k + 1) % 3], t[(k + 2) % 3],
                        faces_[g].corners[corner_beyond(f, k)]};
@@ -256,13 +263,20 @@ class Triangulation {
             continue;
           swap(f, k);
           changed = true;
+          for (const FaceId touched : {f, g}) {
+            fresh[touched] = 1;
+            for (const FaceId beyond : faces_[touched].beyond)
+              if (beyond != none) fresh[beyond] = 1;
+          }
         }
+      }
     }
   }
 
   const std::vector<Point>& space_;
   const Cells& cells_;
   std::vector<FaceId> hints_;  ///< Per cell the face to start a search from.
+  FaceId last_ = 0;            ///< The one to start from elsewhere.
   std::vector<Vector2d> plane_;
   std::vector<Face> faces_;
 };

@@ -1,12 +1,13 @@
 #include "core/mesh/write_ply.h"
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <sys/resource.h>
 
 #include "core/mesh/polygon_file.h"
 #include "core/mesh/scan.h"
@@ -104,16 +105,22 @@ TEST(WriteFileWhole, FailsWithPathAndReason) {
   EXPECT_EQ(file_count(folder), 1u);
 }
 
-TEST(WriteFileWhole, AFullDiskLeavesTheOldFile) {
-  // A folder that cannot be written stands for the disk; root may write everywhere.
-  if (::geteuid() == 0) GTEST_SKIP() << "run by root";
+TEST(WriteFileWhole, AFailedWriteLeavesTheOldFile) {
   const TempFolder folder;
   const std::string path = folder.write("a.txt", "old");
-  std::filesystem::permissions(
-      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  EXPECT_FALSE(write_file_whole(path, "new"));
-  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit full = before;
+  full.rlim_cur = 4096;  // stands for a full disk
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &full);
+  const Result<void> result = write_file_whole(path, std::string(10000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message, path + " cannot be written: File too large.");
   EXPECT_EQ(folder.read("a.txt"), "old");
+  EXPECT_EQ(file_count(folder), 1u);
 }
 
 TEST(WritePly, ComesBackAsItWas) {

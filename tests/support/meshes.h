@@ -18,7 +18,7 @@ MeshPtr mesh_of(const Triangles& triangles);
 
 Triangles cube(double size = 1.0);                          ///< 8 vertices, 12 faces.
 Triangles divided_cube(double size, int divisions);         ///< Each side a divisions^2 grid.
-/// Corner of a box at the origin with its three square sides open at the far ends; `sectors` holds,
+/// Corner (vertex 0) of a box with its three square sides open at the far ends; `sectors` holds,
 /// for each of the three right angles, into how many equal angles it is split.
 Triangles box_corner(int sectors_a, int sectors_b, int sectors_c);
 Triangles icosphere(double radius, int subdivisions);

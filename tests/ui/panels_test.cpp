@@ -833,6 +833,12 @@ TEST_F(StepsPanelTest, CardsMayChangeWithinAClick) {
 
 TEST_F(StepsPanelTest, ANarrowPanelCutsNothing) {
   auto* scroll = panel_.findChild<QScrollArea*>();
+  auto long_words = cards();
+  for (const char* label : {"Parallel distance", "Least mean curvature of a face that passes"}) {
+    long_words[1].parameters.push_back(parameter(label, label, StepParameter::Kind::real, 0.25));
+    long_words[1].parameters.back().suffix = " 1/mm²";
+  }
+  panel_.set_cards(long_words);
   for (const int height : {700, 200}) {
     panel_.resize(260, height);
     QApplication::processEvents();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QLocale>
 #include <QPainter>
@@ -11,6 +12,7 @@
 #include <QStyleOptionComboBox>
 #include <QStyleOptionSpinBox>
 #include <QStylePainter>
+#include <QToolTip>
 #include <QWheelEvent>
 
 namespace arris::ui {
@@ -58,7 +60,7 @@ QString number_text(double value, int digits) {
   const QString scientific = QString::number(rounded, 'e', digits - 1);
   const qsizetype e = scientific.indexOf(QLatin1Char('e'));
   const QString mantissa = without_zeros(scientific.left(e));
-  const QString power = QStringLiteral("10") + superscript(scientific.mid(e + 1).toInt());
+  QString power = QStringLiteral("10") + superscript(scientific.mid(e + 1).toInt());
   if (mantissa == QLatin1String("1")) return power;
   if (mantissa == QLatin1String("-1")) return QLatin1Char('-') + power;
   return mantissa + QStringLiteral("×") + power;
@@ -161,10 +163,21 @@ NumberBox::NumberBox(QWidget* parent) : QDoubleSpinBox(parent) {
   setFocusPolicy(Qt::StrongFocus);
   setKeyboardTracking(false);
   setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   connect(lineEdit(), &QLineEdit::textEdited, this, &NumberBox::edited);
 }
 
+void NumberBox::set_unlimited(bool unlimited) {
+  unlimited_ = unlimited;
+  setValue(value());
+}
+
+bool NumberBox::means_unlimited(const QString& plain) const {
+  return unlimited_ && (plain.isEmpty() || plain == QStringLiteral("∞"));
+}
+
 QString NumberBox::textFromValue(double value) const {
+  if (unlimited_ && value >= maximum()) return QStringLiteral("∞");
   const QString text = without_zeros(QString::number(value, 'f', decimals()));
   return text == QLatin1String("-0") ? QStringLiteral("0") : text;
 }
@@ -176,6 +189,7 @@ QString NumberBox::bare(const QString& text) const {
 }
 
 double NumberBox::valueFromText(const QString& text) const {
+  if (means_unlimited(bare(text))) return maximum();
   return parse_number(bare(text)).value_or(value());
 }
 
@@ -183,6 +197,7 @@ QValidator::State NumberBox::validate(QString& text, int&) const {
   static const QRegularExpression beginning(
       QStringLiteral(R"(^([+-]?)\d*(\.(\d*))?([eE][+-]?\d*)?$)"));
   const QString plain = bare(text);
+  if (means_unlimited(plain)) return QValidator::Acceptable;
   const auto match = beginning.match(plain);
   if (!match.hasMatch()) return QValidator::Invalid;
   if (match.captured(1) == QLatin1String("-") && minimum() >= 0.0) return QValidator::Invalid;
@@ -197,7 +212,7 @@ QValidator::State NumberBox::validate(QString& text, int&) const {
 }
 
 QSize NumberBox::sizeHint() const {
-  const QString widest = QStringLiteral("0000.000") + suffix();
+  const QString widest = QStringLiteral("0000.00") + suffix();
   QStyleOptionSpinBox option;
   initStyleOption(&option);
   const QSize text(fontMetrics().horizontalAdvance(widest) + 4,
@@ -209,7 +224,7 @@ QSize NumberBox::sizeHint() const {
 
 QSize NumberBox::minimumSizeHint() const {
   QSize size = sizeHint();
-  size.rwidth() -= fontMetrics().horizontalAdvance(QStringLiteral("0000"));
+  size.rwidth() -= fontMetrics().horizontalAdvance(QStringLiteral("000"));
   return size;
 }
 
@@ -236,6 +251,7 @@ WholeBox::WholeBox(QWidget* parent) : QSpinBox(parent) {
   setLocale(QLocale::c());
   setFocusPolicy(Qt::StrongFocus);
   setKeyboardTracking(false);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   connect(lineEdit(), &QLineEdit::textEdited, this, &WholeBox::edited);
 }
 
@@ -261,16 +277,30 @@ QSize QuietCombo::minimumSizeHint() const {
   return QSize(std::min(90, sizeHint().width()), QComboBox::minimumSizeHint().height());
 }
 
+QString QuietCombo::shown_text() const {
+  QStyleOptionComboBox option;
+  initStyleOption(&option);
+  const QRect room =
+      style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+  const int icon = option.currentIcon.isNull() ? 0 : option.iconSize.width() + 6;
+  return fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - icon);
+}
+
+bool QuietCombo::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip && shown_text() != currentText()) {
+    QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(),
+                       currentText() + QLatin1Char('\n') + toolTip(), this);
+    return true;
+  }
+  return QComboBox::event(event);
+}
+
 void QuietCombo::paintEvent(QPaintEvent*) {
   QStylePainter painter(this);
   QStyleOptionComboBox option;
   initStyleOption(&option);
   painter.drawComplexControl(QStyle::CC_ComboBox, option);
-  const QRect room =
-      style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
-  const int icon = option.currentIcon.isNull() ? 0 : option.iconSize.width() + 6;
-  option.currentText =
-      fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - icon - 2);
+  option.currentText = shown_text();
   painter.drawControl(QStyle::CE_ComboBoxLabel, option);
 }
 

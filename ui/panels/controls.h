@@ -73,6 +73,10 @@ class NumberBox : public QDoubleSpinBox {
  public:
   explicit NumberBox(QWidget* parent = nullptr);
 
+  /// The largest value stands for "no limit": it is shown as ∞, and an empty box means it.
+  void set_unlimited(bool unlimited);
+  bool is_unlimited() const { return unlimited_ && value() >= maximum(); }
+
   QString textFromValue(double value) const override;
   double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& cursor) const override;
@@ -89,6 +93,8 @@ class NumberBox : public QDoubleSpinBox {
 
  private:
   QString bare(const QString& text) const;
+  bool means_unlimited(const QString& plain) const;
+  bool unlimited_ = false;
 };
 
 /// The same for whole numbers.
@@ -106,8 +112,8 @@ class WholeBox : public QSpinBox {
   void wheelEvent(QWheelEvent* event) override;
 };
 
-/// Combo box that may be narrow (its text is then elided) and that the wheel turns only while it
-/// has the focus.
+/// Combo box that may be narrow (its text is then elided, and whole in the tooltip) and that the
+/// wheel turns only while it has the focus.
 class QuietCombo : public QComboBox {
   Q_OBJECT
  public:
@@ -115,8 +121,12 @@ class QuietCombo : public QComboBox {
   QSize minimumSizeHint() const override;
 
  protected:
+  bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+
+ private:
+  QString shown_text() const;
 };
 
 }  // namespace arris::ui

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <ranges>
 
 #include <QFocusEvent>
 #include <QHelpEvent>
@@ -215,7 +216,8 @@ class HistogramPanel::Private {
     int rows = std::min(count, 1);
     for (; rows < count; ++rows) {
       std::vector<int> used(rows, -gap);
-      for (int k = 0; k < count; ++k) used[k % rows] += widths[order[k]] + gap;
+      int row = 0;
+      for (const int i : order) used[row++ % rows] += widths[i] + gap;
       if (*std::max_element(used.begin(), used.end()) <= width) break;
     }
     const int label_height = line + 6;
@@ -238,8 +240,8 @@ class HistogramPanel::Private {
         left += widths[i] + gap;
       }
       int right = q->width() - margin;
-      for (auto it = members.rbegin(); it != members.rend(); ++it) {
-        QRect& label = result.labels[*it];
+      for (const int i : members | std::views::reverse) {
+        QRect& label = result.labels[i];
         if (label.x() + label.width() > right) label.moveLeft(right - label.width());
         right = label.x() - gap;
       }
@@ -585,7 +587,7 @@ class HistogramPanel::Private {
     // Kmin and Kmax: what lies between them is what would be found.
     QRect inside;
     if (handles.size() == 2) {
-      const auto [low, high] = std::minmax(line_x(0, at.plot), line_x(1, at.plot));
+      const auto [low, high] = std::minmax({line_x(0, at.plot), line_x(1, at.plot)});
       inside = QRect(low, at.plot.top(), high - low + 1, at.plot.height());
       painter.fillRect(inside, mix(base, highlight, 0.13));
     }

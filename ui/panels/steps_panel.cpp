@@ -282,8 +282,9 @@ class IntervalsField : public Field {
     QObject::connect(add_, &QToolButton::clicked, frame_, [this] {
       double low = parameter_.least, high = parameter_.most;
       if (!rows_.empty()) {
-        low = rows_.back().high->value();
-        high = std::min(parameter_.most, 2.0 * low - rows_.back().low->value());
+        const Row& last = rows_.back();
+        low = last.high->is_unlimited() ? last.low->value() : last.high->value();
+        high = parameter_.most;
       }
       add_row(low, std::max(low, high));
       rows_.back().low->setFocus();
@@ -309,7 +310,8 @@ class IntervalsField : public Field {
     for (const Row& row : rows_) {
       row.low->interpretText();
       row.high->interpretText();
-      list.append(QVariant(QVariantList{row.low->value(), row.high->value()}));
+      list.append(QVariant(
+          QVariantList{row.low->value(), row.high->is_unlimited() ? qInf() : row.high->value()}));
     }
     return list;
   }
@@ -348,10 +350,11 @@ class IntervalsField : public Field {
             new QToolButton(frame)};
     for (NumberBox* box : {row.low, row.high}) {
       box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-      box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     }
     row.low->setAccessibleName(QObject::tr("Interval from"));
     row.high->setAccessibleName(QObject::tr("Interval to"));
+    row.high->set_unlimited(true);
+    row.high->setToolTip(QObject::tr("Empty: no upper end."));
     row.low->setValue(low);
     row.high->setValue(high);
     row.drop->setText(QStringLiteral("−"));
@@ -510,6 +513,7 @@ void CardFrame::build_controls(QVBoxLayout* column) {
   run_->setAccessibleName(QObject::tr("Run %1").arg(card_.title));
   foot->addWidget(state_, 1, Qt::AlignVCenter);
   foot->addWidget(run_);
+  run_->setVisible(card_.runnable);
   column->addLayout(foot);
   QObject::connect(run_, &QPushButton::clicked, this, [this] {
     allow_run();

@@ -17,7 +17,7 @@ struct StepParameter {
   QString tooltip;
   Kind kind = Kind::real;
   QVariant value;  ///< double, int, choice key (QString), or for intervals a QVariantList of
-                   ///< [min, max] QVariantLists.
+                   ///< [min, max] QVariantLists (max infinite: no upper end).
   double least = 0.0, most = 0.0;
   int decimals = 2;
   QString suffix;       ///< " °", " mm", " 1/mm²".
@@ -36,6 +36,7 @@ struct StepCard {
   QString result;  ///< "137 lines, 1,203 edges".
   QString time;    ///< "0.12 s".
   std::vector<StepParameter> parameters;
+  bool runnable = true;  ///< False: no Run button.
 };
 
 /// The left panel: the paper's figure 2 from top to bottom. A card that is `unavailable` (a phase

@@ -1,7 +1,7 @@
 #include "ui/view/coarse_mesh.h"
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include <Eigen/Geometry>

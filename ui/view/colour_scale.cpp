@@ -49,10 +49,14 @@ constexpr std::array<Rgb, 11> diverging_colours{{{0x05, 0x30, 0x61},
 
 std::span<const Rgb> colours_of(ColourMap map) {
   switch (map) {
-    case ColourMap::paper: return paper_colours;
-    case ColourMap::viridis: return viridis_colours;
-    case ColourMap::cividis: return cividis_colours;
-    case ColourMap::diverging: return diverging_colours;
+    case ColourMap::paper:
+      return paper_colours;
+    case ColourMap::viridis:
+      return viridis_colours;
+    case ColourMap::cividis:
+      return cividis_colours;
+    case ColourMap::diverging:
+      return diverging_colours;
   }
   return paper_colours;
 }
@@ -91,8 +95,7 @@ constexpr std::array<Rgb, 12> soft_colours{{{141, 190, 229},
 QColor soft_colour(std::size_t k) {
   if (k < soft_colours.size()) return {soft_colours[k][0], soft_colours[k][1], soft_colours[k][2]};
   const double hue = std::fmod(static_cast<double>(k) * 0.61803398875, 1.0);
-  return QColor::fromHslF(static_cast<float>(hue), 0.5F,
-                          0.62F + 0.09F * static_cast<float>(k % 3))
+  return QColor::fromHslF(static_cast<float>(hue), 0.5F, 0.62F + 0.09F * static_cast<float>(k % 3))
       .toRgb();
 }
 
@@ -135,8 +138,8 @@ std::array<std::uint8_t, 3> ColourScale::colour(double value) const {
   return mix(colours_of(map), reversed ? 1.0 - x : x);
 }
 
-std::vector<QColor> partition_colours(
-    std::size_t count, const std::vector<std::array<std::uint32_t, 2>>& neighbours) {
+std::vector<QColor> partition_colours(std::size_t count,
+                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours) {
   std::vector<std::vector<std::uint32_t>> adjacent(count);
   for (const auto& [a, b] : neighbours) {
     if (a == b || a >= count || b >= count) continue;

@@ -11,7 +11,7 @@
 namespace arris::ui {
 
 enum class ColourMap {
-  paper,      ///< The paper's: black (0) through green to red (high), figures 9 and 31.
+  paper,  ///< The paper's: black (0) through green to red (high), figures 9 and 31.
   viridis,
   cividis,    ///< Reads the same for the colour-blind.
   diverging,  ///< Blue, white, red: for signed fields.
@@ -27,13 +27,13 @@ struct ColourScale {
   double max = 1.0;
   bool logarithmic = false;  ///< For fields that are never negative; values <= 0 take the low end.
   bool reversed = false;
-  int bands = 0;                         ///< 0: smooth; else that many flat colours.
-  QColor below;                          ///< Invalid: the colour of the low end.
-  QColor above;                          ///< Invalid: the colour of the high end.
+  int bands = 0;                             ///< 0: smooth; else that many flat colours.
+  QColor below;                              ///< Invalid: the colour of the low end.
+  QColor above;                              ///< Invalid: the colour of the high end.
   QColor undefined = QColor(150, 150, 150);  ///< NaN.
 
-  /// Position of a value on the scale, 0 to 1 where it lies between min and max; NaN for NaN. Smallest
-  /// value shown on a logarithmic scale with min <= 0 is max / 1e6.
+  /// Position of a value on the scale, 0 to 1 where it lies between min and max; NaN for NaN.
+  /// Smallest value shown on a logarithmic scale with min <= 0 is max / 1e6.
   double position(double value) const;
   std::array<std::uint8_t, 3> colour(double value) const;
   bool operator==(const ColourScale&) const = default;
@@ -41,7 +41,7 @@ struct ColourScale {
 
 /// Soft, distinct colours for partitions: neighbours never alike. `neighbours` lists the adjacent
 /// pairs of partition indices (0 .. count-1); the result has one colour for each.
-std::vector<QColor> partition_colours(
-    std::size_t count, const std::vector<std::array<std::uint32_t, 2>>& neighbours);
+std::vector<QColor> partition_colours(std::size_t count,
+                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours);
 
 }  // namespace arris::ui

@@ -18,7 +18,7 @@ namespace arris::ui {
 namespace {
 
 constexpr int samples_per_pixel = 4;
-constexpr qint64 most_sampled_pixels = 20'000'000;  // larger pictures are drawn without
+constexpr qint64 most_sampled_pixels = 20'000'000;  // memory: 32 bytes each
 
 // Desktop enumerators that Qt's headers, made for OpenGL ES too, leave out.
 constexpr GLenum depth_component_32 = 0x81A7;
@@ -46,8 +46,7 @@ GLenum depth_format(QOpenGLExtraFunctions& gl) {
     return floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
   }
   if (floating) return GL_DEPTH_COMPONENT32F;
-  return bits <= 16 ? GL_DEPTH_COMPONENT16
-                    : bits <= 24 ? GL_DEPTH_COMPONENT24 : depth_component_32;
+  return bits <= 16 ? GL_DEPTH_COMPONENT16 : bits <= 24 ? GL_DEPTH_COMPONENT24 : depth_component_32;
 }
 
 }  // namespace
@@ -80,6 +79,10 @@ void GlCanvas::start(QOpenGLContext* context) {
   window_->GetState()->vtkglEnable(GL_DEPTH_TEST);
   window_->GetState()->vtkglDepthFunc(GL_LEQUAL);
   window_->OpenGLInit();
+  const auto* name = reinterpret_cast<const char*>(gl_->glGetString(GL_RENDERER));
+  const QByteArray renderer = QByteArray(name == nullptr ? "" : name).toLower();
+  software_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") ||
+              renderer.contains("software") || renderer.contains("swr");
   blitter_ = std::make_unique<QOpenGLTextureBlitter>();
   if (!blitter_->create()) blitter_.reset();
   kept_valid_ = false;
@@ -100,7 +103,17 @@ void GlCanvas::release() {
   gl_ = nullptr;
 }
 
-void GlCanvas::render() {
+void GlCanvas::prepare(const Frame& frame) {
+  size_ = frame.pixels;
+  const bool fits = static_cast<qint64>(size_.width()) * size_.height() <= most_sampled_pixels;
+  window_->SetMultiSamples(frame.smooth && fits ? samples_per_pixel : 0);
+  window_->SetSize(size_.width(), size_.height());
+  scene_.prepare(frame.camera, frame.pixels, frame.pixel_ratio, frame.coarse);
+}
+
+void GlCanvas::render(bool surface, bool lines) {
+  scene_.surface_renderer()->SetDraw(surface);
+  scene_.line_renderer()->SetDraw(lines);
   vtkOpenGLState* state = window_->GetState();
   state->Reset();
   state->Push();
@@ -111,30 +124,26 @@ void GlCanvas::render() {
   state->Pop();
 }
 
+void GlCanvas::draw_once(const Frame& frame) {
+  prepare(frame);
+  render(true, true);
+}
+
 void GlCanvas::draw(const Frame& frame) {
-  size_ = frame.pixels;
-  const bool sampled =
-      static_cast<qint64>(size_.width()) * size_.height() <= most_sampled_pixels;
-  window_->SetMultiSamples(sampled ? samples_per_pixel : 0);
-  window_->SetSize(size_.width(), size_.height());
-  scene_.prepare(frame.camera, frame.pixels, frame.pixel_ratio, frame.coarse);
+  prepare(frame);
   const bool restored = kept_valid_ && kept_frame_ == frame &&
                         kept_version_ == scene_.surface_version() && keep_surface(true);
   if (!restored) {
     QElapsedTimer clock;
     clock.start();
-    scene_.surface_renderer()->DrawOn();
-    scene_.line_renderer()->DrawOff();
-    render();
+    render(true, false);
     gl_->glFinish();
     if (!frame.coarse) surface_time_ = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     kept_frame_ = frame;
     kept_version_ = scene_.surface_version();
     kept_valid_ = keep_surface(false);
   }
-  scene_.surface_renderer()->DrawOff();
-  scene_.line_renderer()->DrawOn();
-  render();
+  render(false, true);
 }
 
 bool GlCanvas::keep_surface(bool restore) {
@@ -160,18 +169,17 @@ bool GlCanvas::keep_surface(bool restore) {
          {stencil ? GLenum{GL_DEPTH_STENCIL_ATTACHMENT} : GLenum{GL_DEPTH_ATTACHMENT}, depth}}};
     for (std::size_t k = 0; k < parts.size(); ++k) {
       gl_->glBindRenderbuffer(GL_RENDERBUFFER, kept_parts_[k]);
-      gl_->glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, parts[k][1],
-                                            size_.width(), size_.height());
-      gl_->glFramebufferRenderbuffer(GL_FRAMEBUFFER, parts[k][0], GL_RENDERBUFFER,
-                                     kept_parts_[k]);
+      gl_->glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, parts[k][1], size_.width(),
+                                            size_.height());
+      gl_->glFramebufferRenderbuffer(GL_FRAMEBUFFER, parts[k][0], GL_RENDERBUFFER, kept_parts_[k]);
     }
     gl_->glBindRenderbuffer(GL_RENDERBUFFER, 0);
   }
   gl_->glDisable(GL_SCISSOR_TEST);
   gl_->glBindFramebuffer(GL_READ_FRAMEBUFFER, restore ? kept_buffer_ : source);
   gl_->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, restore ? source : kept_buffer_);
-  gl_->glBlitFramebuffer(0, 0, size_.width(), size_.height(), 0, 0, size_.width(),
-                         size_.height(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  gl_->glBlitFramebuffer(0, 0, size_.width(), size_.height(), 0, 0, size_.width(), size_.height(),
+                         GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   kept_refused_ = gl_->glGetError() != GL_NO_ERROR;
   return !kept_refused_;
 }
@@ -189,8 +197,8 @@ void GlCanvas::show(const QImage& overlay, unsigned int frame_buffer) {
   gl_->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_->glBindFramebuffer(GL_READ_FRAMEBUFFER, window_->GetDisplayFramebuffer()->GetFBOIndex());
   gl_->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_buffer);
-  gl_->glBlitFramebuffer(0, 0, size_.width(), size_.height(), 0, 0, size_.width(),
-                         size_.height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_->glBlitFramebuffer(0, 0, size_.width(), size_.height(), 0, 0, size_.width(), size_.height(),
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_->glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer);
   gl_->glViewport(0, 0, size_.width(), size_.height());
   // Only alpha: what VTK leaves there would make grabbed pictures transparent.

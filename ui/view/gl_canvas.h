@@ -37,16 +37,22 @@ class GlCanvas {
     ViewCamera camera;
     QSize pixels;
     double pixel_ratio = 1.0;
-    bool coarse = false;
+    bool coarse = false;  ///< The stand-in for the mesh.
+    bool smooth = true;   ///< Several samples for each pixel.
     bool operator==(const Frame&) const = default;
   };
-  /// Draws into VTK's own buffer. Where only lines changed since the last frame they alone are drawn,
-  /// over a kept picture of the surface.
+  /// The context draws on the processor.
+  bool is_software() const { return software_; }
+  /// Draws into VTK's own buffer. Where only lines changed since the last frame they alone are
+  /// drawn, over a kept picture of the surface.
   void draw(const Frame& frame);
+  /// The same for a picture that is drawn but once: keeps nothing.
+  void draw_once(const Frame& frame);
   /// Milliseconds that the last frame with the whole surface took.
   double surface_time() const { return surface_time_; }
 
-  /// Copies what was drawn into a frame buffer of the same size, opaque, and lays `overlay` over it.
+  /// Copies what was drawn into a frame buffer of the same size, opaque, and lays `overlay` over
+  /// it.
   void show(const QImage& overlay, unsigned int frame_buffer);
   /// What was drawn, premultiplied; null if GL failed.
   QImage read();
@@ -54,7 +60,8 @@ class GlCanvas {
   bool is_possible(QSize pixels);
 
  private:
-  void render();
+  void prepare(const Frame& frame);
+  void render(bool surface, bool lines);
   bool keep_surface(bool restore);
   void release_kept();
   void lay_over(const QImage& overlay);
@@ -67,6 +74,7 @@ class GlCanvas {
   unsigned int overlay_texture_ = 0;
   qint64 overlay_key_ = 0;
   double surface_time_ = 0.0;
+  bool software_ = false;
   QSize size_;
 
   // A copy of VTK's buffer, colour and depth, before lines are drawn.

@@ -23,21 +23,22 @@ namespace {
 
 constexpr int drag_threshold = 3;  // logical pixels before a press becomes a drag
 constexpr double radians_per_pixel = 0.0075;
-constexpr int hover_interval = 33;    // ms
-constexpr int rest_interval = 180;    // ms without movement until the full mesh is drawn again
+constexpr int hover_interval = 33;     // ms
+constexpr int rest_interval = 180;     // ms without movement until the full mesh is drawn again
 constexpr double slow_surface = 80.0;  // ms; with lines and the rest about 100 for a frame
 constexpr std::size_t stand_in_faces = 60'000;
-constexpr double fit_share = 0.86;  // of the view that the part fills
+constexpr std::size_t most_smooth_faces = 150'000;  // where the processor draws: three times slower
+constexpr double fit_share = 0.86;                  // of the view that the part fills
 
 template <class Value>
 using Later = std::shared_future<std::shared_ptr<const Value>>;
 
-/// Makes a value on the shared pool; null if memory runs out.
+/// Makes a value on another thread; null if memory runs out.
 template <class Value, class Make>
-Later<Value> in_background(Make make) {
+Later<Value> in_background(QThreadPool& workers, Make make) {
   const auto promise = std::make_shared<std::promise<std::shared_ptr<const Value>>>();
   Later<Value> later = promise->get_future().share();
-  QThreadPool::globalInstance()->start([promise, make = std::move(make)] {
+  workers.start([promise, make = std::move(make)] {
     try {
       promise->set_value(std::make_shared<const Value>(make()));
     } catch (const std::bad_alloc&) {
@@ -84,6 +85,7 @@ struct MeshView::Impl {
   Later<RayTree> tree;
   Later<CoarseMesh> coarse;
   bool coarse_given = false;  // to the scene
+  QThreadPool workers;        // of its own: a click must not wait for other work of the program
 
   Drag drag = Drag::none;
   bool dragged = false;
@@ -112,9 +114,9 @@ struct MeshView::Impl {
   Overlay overlay(const ViewCamera& seen, double units) const {
     Overlay result;
     result.dark = dark;
-    const bool shown = field && field->values && mesh && !scene.labels_shown() &&
-                       field->values->size() ==
-                           (field->on_edges ? mesh->edge_count() : mesh->vertex_count());
+    const bool shown =
+        field && field->values && mesh && !scene.labels_shown() &&
+        field->values->size() == (field->on_edges ? mesh->edge_count() : mesh->vertex_count());
     if (shown && scalar_bar_visible) {
       result.field = field;
       result.field_has_undefined = field_has_undefined;
@@ -135,9 +137,7 @@ struct MeshView::Impl {
 
 namespace {
 
-QSizeF logical_size(const QWidget& view) {
-  return QSizeF(view.size().expandedTo({1, 1}));
-}
+QSizeF logical_size(const QWidget& view) { return QSizeF(view.size().expandedTo({1, 1})); }
 
 /// The one size in device pixels; QOpenGLWidget rounds its frame buffer the same way.
 QSize device_size(const QWidget& view) {
@@ -197,13 +197,14 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
   impl_->line_types.clear();
   impl_->selected_lines.clear();
   impl_->field.reset();
+  impl_->workers.clear();
   impl_->tree = {};
   impl_->coarse = {};
   impl_->coarse_given = false;
   impl_->scene.set_mesh(impl_->mesh);
   if (impl_->mesh) {
     impl_->tree =
-        in_background<RayTree>([shared = impl_->mesh] { return RayTree(shared); });
+        in_background<RayTree>(impl_->workers, [shared = impl_->mesh] { return RayTree(shared); });
     if (impl_->mesh->face_count() > 2 * stand_in_faces) {
       impl_->coarse = in_background<CoarseMesh>(
           [shared = impl_->mesh] { return make_coarse(*shared, stand_in_faces); });
@@ -228,9 +229,8 @@ void MeshView::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QC
 void MeshView::set_lines(std::vector<ViewLine> lines) {
   const std::size_t count = impl_->mesh ? impl_->mesh->vertex_count() : 0;
   std::erase_if(lines, [&](const ViewLine& line) {
-    return line.vertices.size() < 2 ||
-           std::any_of(line.vertices.begin(), line.vertices.end(),
-                       [&](VertexId v) { return v >= count; });
+    return line.vertices.size() < 2 || std::any_of(line.vertices.begin(), line.vertices.end(),
+                                                   [&](VertexId v) { return v >= count; });
   });
   impl_->lines = std::move(lines);
   impl_->line_types.clear();
@@ -288,13 +288,27 @@ void MeshView::fit() {
 void MeshView::look_from(StandardView view) {
   const Point up = Point::UnitZ();
   switch (view) {
-    case StandardView::front: impl_->camera.look(-Point::UnitY(), up); break;
-    case StandardView::back: impl_->camera.look(Point::UnitY(), up); break;
-    case StandardView::left: impl_->camera.look(-Point::UnitX(), up); break;
-    case StandardView::right: impl_->camera.look(Point::UnitX(), up); break;
-    case StandardView::top: impl_->camera.look(Point::UnitZ(), Point::UnitY()); break;
-    case StandardView::bottom: impl_->camera.look(-Point::UnitZ(), Point::UnitY()); break;
-    case StandardView::isometric: impl_->camera.look(Point(1.0, -1.0, 1.0), up); break;
+    case StandardView::front:
+      impl_->camera.look(-Point::UnitY(), up);
+      break;
+    case StandardView::back:
+      impl_->camera.look(Point::UnitY(), up);
+      break;
+    case StandardView::left:
+      impl_->camera.look(-Point::UnitX(), up);
+      break;
+    case StandardView::right:
+      impl_->camera.look(Point::UnitX(), up);
+      break;
+    case StandardView::top:
+      impl_->camera.look(Point::UnitZ(), Point::UnitY());
+      break;
+    case StandardView::bottom:
+      impl_->camera.look(-Point::UnitZ(), Point::UnitY());
+      break;
+    case StandardView::isometric:
+      impl_->camera.look(Point(1.0, -1.0, 1.0), up);
+      break;
   }
   fit();
 }
@@ -307,8 +321,9 @@ void MeshView::zoom_to(const std::vector<VertexId>& vertices) {
   }
   constexpr double share = 0.6;
   constexpr double edges_seen = 12.0;  // so that a single vertex is shown with what is about it
-  impl_->camera.frame(points, logical_size(*this), share,
-                      std::max(impl_->least_height(), edges_seen * impl_->mesh->mean_edge_length()));
+  impl_->camera.frame(
+      points, logical_size(*this), share,
+      std::max(impl_->least_height(), edges_seen * impl_->mesh->mean_edge_length()));
   update();
 }
 
@@ -320,16 +335,15 @@ QImage MeshView::picture(const PictureOptions& options) {
     return {};
   }
   const QSizeF size = logical_size(*this);
-  const double scale = std::min(options.size.width() / size.width(),
-                                options.size.height() / size.height());
+  const double scale =
+      std::min(options.size.width() / size.width(), options.size.height() / size.height());
   GlCanvas::Frame frame;
   frame.camera = impl_->camera;
-  frame.camera.set_height(impl_->camera.height() * options.size.height() /
-                          (scale * size.height()));
+  frame.camera.set_height(impl_->camera.height() * options.size.height() / (scale * size.height()));
   frame.pixels = options.size;
   frame.pixel_ratio = scale;
   impl_->scene.set_ground(options.background, options.background);
-  impl_->canvas.draw(frame);
+  impl_->canvas.draw_once(frame);
   QImage image = impl_->canvas.read();
   impl_->show_ground();
   doneCurrent();
@@ -380,6 +394,8 @@ void MeshView::paintGL() {
   frame.camera = impl_->camera;
   frame.pixels = device_size(*this);
   frame.pixel_ratio = ratio;
+  frame.smooth = !(impl_->canvas.is_software() && impl_->mesh &&
+                   impl_->mesh->face_count() > most_smooth_faces);
   frame.coarse = impl_->moving && impl_->canvas.surface_time() > slow_surface;
   impl_->canvas.draw(frame);
 
@@ -407,10 +423,18 @@ void MeshView::mousePressEvent(QMouseEvent* event) {
   impl_->dragged = false;
   const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
   switch (event->button()) {
-    case Qt::LeftButton: impl_->drag = shift ? Impl::Drag::pan : Impl::Drag::orbit; break;
-    case Qt::MiddleButton: impl_->drag = Impl::Drag::pan; break;
-    case Qt::RightButton: impl_->drag = Impl::Drag::zoom; break;
-    default: event->ignore(); return;
+    case Qt::LeftButton:
+      impl_->drag = shift ? Impl::Drag::pan : Impl::Drag::orbit;
+      break;
+    case Qt::MiddleButton:
+      impl_->drag = Impl::Drag::pan;
+      break;
+    case Qt::RightButton:
+      impl_->drag = Impl::Drag::zoom;
+      break;
+    default:
+      event->ignore();
+      return;
   }
   impl_->pivot = impl_->mesh ? Point((impl_->mesh->box_min() + impl_->mesh->box_max()) / 2)
                              : impl_->camera.focus();
@@ -436,12 +460,15 @@ void MeshView::mouseMoveEvent(QMouseEvent* event) {
     case Impl::Drag::orbit:
       impl_->camera.orbit(impl_->pivot, -by.x() * radians_per_pixel, -by.y() * radians_per_pixel);
       break;
-    case Impl::Drag::pan: impl_->camera.pan(by, size); break;
-    case Impl::Drag::zoom:
-      impl_->camera.zoom(std::exp(-by.y() * 0.01), impl_->pressed_at, size,
-                         impl_->least_height(), impl_->most_height());
+    case Impl::Drag::pan:
+      impl_->camera.pan(by, size);
       break;
-    case Impl::Drag::none: break;
+    case Impl::Drag::zoom:
+      impl_->camera.zoom(std::exp(-by.y() * 0.01), impl_->pressed_at, size, impl_->least_height(),
+                         impl_->most_height());
+      break;
+    case Impl::Drag::none:
+      break;
   }
   moved();
 }

@@ -28,20 +28,21 @@ struct ViewLine {
 
 /// The field that colours the surface.
 struct ViewField {
-  QString title;  ///< With unit: "Kabs (1/mm²)".
+  QString title;                                      ///< With unit: "Kabs (1/mm²)".
   std::shared_ptr<const std::vector<double>> values;  ///< Per vertex, or per edge; NaN: undefined.
   bool on_edges = false;  ///< Draw coloured edges over a plain surface (figure 24b).
   ColourScale scale;
   bool read_as_radius = false;  ///< The scalar bar shows a radius in mm beside each value of Kabs.
-  /// Where set, values are class numbers 0, 1, ...: `class_names[k]` in `class_colours[k]` as a legend.
+  /// Where set, values are class numbers 0, 1, ...: `class_names[k]` in `class_colours[k]` as a
+  /// legend.
   QStringList class_names;
   std::vector<QColor> class_colours;
   bool operator==(const ViewField&) const = default;
 };
 
 /// What lies under the pointer. Only what is visible is ever picked: the nearest front surface, and
-/// lines that are shown and not hidden behind it. Where a line is picked beside the surface, or over
-/// the back of an open one, face, vertex and edge are no_id.
+/// lines that are shown and not hidden behind it. Where a line is picked beside the surface, or
+/// over the back of an open one, face, vertex and edge are no_id.
 struct Pick {
   FaceId face = no_id;
   VertexId vertex = no_id;  ///< The corner of `face` nearest to the pointer.
@@ -66,27 +67,27 @@ class MeshView : public QOpenGLWidget {
   explicit MeshView(QWidget* parent = nullptr);
   ~MeshView() override;
 
-  /// The mesh to show; fits the camera when `fit`. A null mesh empties the view. Field, labels, lines
-  /// and selections belong to a mesh and go with it: set them after.
+  /// The mesh to show; fits the camera when `fit`. A null mesh empties the view. Field, labels,
+  /// lines and selections belong to a mesh and go with it: set them after.
   void set_mesh(MeshPtr mesh, bool fit);
-  /// Colours the surface by a field; nullopt: plain. Values change without uploading geometry again.
-  /// A field whose number of values does not fit the mesh is not drawn.
+  /// Colours the surface by a field; nullopt: plain. Values change without uploading geometry
+  /// again. A field whose number of values does not fit the mesh is not drawn.
   void set_field(std::optional<ViewField> field);
   /// One label per face (0: none) and a colour for each label value; empty labels: not shown.
-  /// Drawn instead of the field. `colours` is indexed by label. Labels whose number does not fit the
-  /// mesh are not drawn.
+  /// Drawn instead of the field. `colours` is indexed by label. Labels whose number does not fit
+  /// the mesh are not drawn.
   void set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
-  /// Lines drawn thick on top of the surface. Cheap: the surface is left alone. Lines through vertices
-  /// that the mesh does not have are left out.
+  /// Lines drawn thick on top of the surface. Cheap: the surface is left alone. Lines through
+  /// vertices that the mesh does not have are left out.
   void set_lines(std::vector<ViewLine> lines);
   void set_selected_lines(const std::unordered_set<std::uint32_t>& ids);
   /// Faces whose label is selected are drawn highlighted.
   void set_selected_labels(const std::unordered_set<std::uint32_t>& labels);
 
   void set_lines_visible(bool visible);
-  void set_edges_visible(bool visible);        ///< Mesh edges as a thin net.
+  void set_edges_visible(bool visible);  ///< Mesh edges as a thin net.
   void set_scalar_bar_visible(bool visible);
-  void set_dark(bool dark);                    ///< Ground and text colours.
+  void set_dark(bool dark);  ///< Ground and text colours.
 
   void fit();  ///< The whole part in the view; keeps the direction.
   enum class StandardView { front, back, left, right, top, bottom, isometric };
@@ -94,9 +95,9 @@ class MeshView : public QOpenGLWidget {
   /// Moves the camera (keeps direction) so that these vertices fill most of the view.
   void zoom_to(const std::vector<VertexId>& vertices);
 
-  /// The picture as on the screen, drawn again at the wanted size: text and line widths grow with it,
-  /// and at least what is seen on the screen is in it. Null image if drawing failed, which it does
-  /// before the view was first shown and beyond the size that the graphics driver allows.
+  /// The picture as on the screen, drawn again at the wanted size: text and line widths grow with
+  /// it, and at least what is seen on the screen is in it. Null image if drawing failed, which it
+  /// does before the view was first shown and beyond the size that the graphics driver allows.
   QImage picture(const PictureOptions& options);
 
   /// The pick at a widget position (logical pixels); nullopt: nothing there. In the first moments

@@ -105,8 +105,8 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
   constexpr double strip = 18.0;
   constexpr double tip = 12.0;
   const double line = QFontMetricsF(look.font).height();
-  const double top = (scale.above.isValid() ? tip : 0.0) +
-                     (field.read_as_radius ? 2 * line + 12 : line + 10);
+  const double top =
+      (scale.above.isValid() ? tip : 0.0) + (field.read_as_radius ? 2 * line + 12 : line + 10);
   const double bottom = (scale.below.isValid() ? tip : 0.0) + (undefined ? line + 12 : 4);
   const double room = size.height() - 2 * margin - 2 * padding - top - bottom;
   const double height = std::min(room, std::clamp(0.5 * size.height(), 120.0, 340.0));
@@ -123,8 +123,8 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
   if (field.read_as_radius) {
     radii_width = std::max(radii_width, text_width(look.font, radius_title)) + 16.0;
   }
-  double inner = std::max(strip + 10.0 + values_width + radii_width,
-                          text_width(look.bold, field.title));
+  double inner =
+      std::max(strip + 10.0 + values_width + radii_width, text_width(look.bold, field.title));
   if (undefined) inner = std::max(inner, strip + 10.0 + text_width(look.font, undefined_text));
   const QRectF panel(size.width() - margin - inner - 2 * padding, margin, inner + 2 * padding,
                      height + top + bottom + 2 * padding);
@@ -137,8 +137,7 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
              Qt::AlignLeft | Qt::AlignVCenter, field.title);
   const double values_x = x + strip + 10.0;
   if (field.read_as_radius) {
-    paint_text(painter, look.font, look.faint,
-               {x, panel.top() + padding + line + 2, inner, line},
+    paint_text(painter, look.font, look.faint, {x, panel.top() + padding + line + 2, inner, line},
                Qt::AlignRight | Qt::AlignVCenter, radius_title);
   }
 
@@ -228,11 +227,16 @@ QRectF paint_class_legend(QPainter& painter, const Look& look, QSizeF size,
 
 QString line_name(LineType type) {
   switch (type) {
-    case LineType::c0_convex: return translated("C0 convex");
-    case LineType::c0_concave: return translated("C0 concave");
-    case LineType::gn: return translated("Gn");
-    case LineType::undefined: return translated("undefined");
-    case LineType::border: return translated("border");
+    case LineType::c0_convex:
+      return translated("C0 convex");
+    case LineType::c0_concave:
+      return translated("C0 concave");
+    case LineType::gn:
+      return translated("Gn");
+    case LineType::undefined:
+      return translated("undefined");
+    case LineType::border:
+      return translated("border");
   }
   return {};
 }
@@ -253,7 +257,7 @@ void paint_sample(QPainter& painter, const Stroke& stroke, const QPointF& from, 
     painter.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap));
     painter.drawPath(path);
   };
-  pen(QColor(255, 255, 255, 215), 2.0 * (stroke.half_width + 1.1));
+  pen(QColor(255, 255, 255, 215), 2.0 * (stroke.half_width + line_rim));
   pen(stroke.colour, 2.0 * stroke.half_width);
 }
 
@@ -323,8 +327,8 @@ void paint_orientation(QPainter& painter, const Look& look, QSizeF size, const O
   std::array<Axis, 3> axes{
       {{overlay.axes.transpose().col(0), QColor(214, 48, 49), QStringLiteral("x")},
        {overlay.axes.transpose().col(1), QColor(30, 150, 60), QStringLiteral("y")},
-       {overlay.axes.transpose().col(2),
-        overlay.dark ? QColor(90, 150, 255) : QColor(30, 90, 215), QStringLiteral("z")}}};
+       {overlay.axes.transpose().col(2), overlay.dark ? QColor(90, 150, 255) : QColor(30, 90, 215),
+        QStringLiteral("z")}}};
   std::sort(axes.begin(), axes.end(),
             [](const Axis& a, const Axis& b) { return a.direction.z() < b.direction.z(); });
   for (const Axis& axis : axes) {
@@ -339,8 +343,7 @@ void paint_orientation(QPainter& painter, const Look& look, QSizeF size, const O
       const QPointF across(-unit.y(), unit.x());
       const QPointF base = tip - unit * 4.0;
       painter.setPen(Qt::NoPen);
-      painter.drawPolygon(
-          QPolygonF({base + across * 4.0, base - across * 4.0, tip + unit * 5.0}));
+      painter.drawPolygon(QPolygonF({base + across * 4.0, base - across * 4.0, tip + unit * 5.0}));
       const QPointF at = tip + unit * 12.0;
       paint_text(painter, look.bold, axis.colour, {at.x() - 8.0, at.y() - 8.0, 16.0, 16.0},
                  Qt::AlignCenter, axis.name);
@@ -349,8 +352,8 @@ void paint_orientation(QPainter& painter, const Look& look, QSizeF size, const O
       painter.setPen(Qt::NoPen);
       painter.drawEllipse(tip, 4.0, 4.0);
       if (axis.direction.z() > 0.0) {
-        paint_text(painter, look.bold, axis.colour,
-                   {tip.x() - 18.0, tip.y() + 3.0, 16.0, 16.0}, Qt::AlignCenter, axis.name);
+        paint_text(painter, look.bold, axis.colour, {tip.x() - 18.0, tip.y() + 3.0, 16.0, 16.0},
+                   Qt::AlignCenter, axis.name);
       }
     }
   }
@@ -364,8 +367,9 @@ QString short_number(double value) {
   const double size = std::abs(value);
   QString text;
   if (size >= 0.001 && size < 99999.5) {
-    const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size * 1.00001))));
-    text = QString::number(size, 'f', digits);
+    const int digits = 2 - static_cast<int>(std::floor(std::log10(size * 1.00001)));
+    const double unit = std::pow(10.0, -digits);
+    text = QString::number(std::round(size / unit) * unit, 'f', std::max(0, digits));
     if (digits > 0) {
       while (text.endsWith('0')) text.chop(1);
       if (text.endsWith('.')) text.chop(1);
@@ -430,9 +434,8 @@ void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
                          QPainter::SmoothPixmapTransform);
   QRectF bar;
   if (overlay.field) {
-    bar = overlay.field->class_names.isEmpty()
-              ? paint_scalar_bar(painter, look, size, overlay)
-              : paint_class_legend(painter, look, size, overlay);
+    bar = overlay.field->class_names.isEmpty() ? paint_scalar_bar(painter, look, size, overlay)
+                                               : paint_class_legend(painter, look, size, overlay);
   }
   QRectF legend;
   if (!overlay.line_types.empty()) legend = paint_line_legend(painter, look, size, overlay, bar);

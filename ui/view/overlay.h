@@ -16,10 +16,10 @@ struct Overlay {
   bool dark = false;
   std::optional<ViewField> field;  ///< Nullopt: no scalar bar.
   bool field_has_undefined = false;
-  std::set<LineType> line_types;   ///< In the legend.
+  std::set<LineType> line_types;  ///< In the legend.
   bool scale_bar = true;
   bool orientation_marker = true;
-  double units_per_pixel = 1.0;    ///< Mesh unit per pixel of the painter.
+  double units_per_pixel = 1.0;                        ///< Mesh unit per pixel of the painter.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< See ViewCamera::axes().
   bool operator==(const Overlay&) const = default;
 };

@@ -84,13 +84,13 @@ std::optional<std::pair<std::uint32_t, Point>> line_at(const RayTree& tree,
     const ViewLine& line = lines[candidate.line];
     const VertexId from = line.vertices[candidate.segment];
     const VertexId to = line.vertices[candidate.segment + 1];
-    const Point point =
-        mesh.point(from) + candidate.share * (mesh.point(to) - mesh.point(from));
+    const Point point = mesh.point(from) + candidate.share * (mesh.point(to) - mesh.point(from));
     // The same lift as where it is drawn, so that what is seen is what is picked.
     const double half_width =
         static_cast<double>(line_strokes()[static_cast<std::size_t>(line.type)].half_width);
-    const double lift =
-        faces_viewer(mesh, from, to, towards) ? front_lift * half_width : back_lift;
+    const double lift = faces_viewer(mesh, from, to, towards)
+                            ? front_lift * (half_width + static_cast<double>(line_rim))
+                            : back_lift;
     const double reach = 2.0 * mesh.diagonal();
     if (!tree.first(point + towards * (lift * unit), towards, reach)) {
       return std::pair{line.id, point};

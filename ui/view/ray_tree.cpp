@@ -15,18 +15,21 @@ constexpr std::uint32_t leaf_size = 4;
 /// Distance at which the ray enters the box, infinite if it misses it.
 double entry(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Point& origin,
              const Point& inverse, double most) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   double near = 0.0;
   double far = most;
   for (int k = 0; k < 3; ++k) {
-    double a = (low[k] - origin[k]) * inverse[k];
-    double b = (high[k] - origin[k]) * inverse[k];
-    if (a > b) std::swap(a, b);
-    // A NaN (0 times infinity: the ray runs in a side of the box) leaves the bounds as they are.
-    if (a > near) near = a;
-    if (b < far) far = b;
+    if (!std::isfinite(inverse[k])) {  // the ray runs along the sides
+      if (origin[k] < low[k] || origin[k] > high[k]) return infinity;
+      continue;
+    }
+    const double a = (low[k] - origin[k]) * inverse[k];
+    const double b = (high[k] - origin[k]) * inverse[k];
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
   }
   // Rounding must never lose a box that the ray touches.
-  return near <= far * (1.0 + 1e-12) ? near : std::numeric_limits<double>::infinity();
+  return near <= far * (1.0 + 1e-12) ? near : infinity;
 }
 
 }  // namespace

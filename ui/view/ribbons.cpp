@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -17,6 +19,7 @@
 #include <vtkShaderProperty.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUniforms.h>
+#include <Eigen/Geometry>
 
 namespace arris::ui {
 namespace {
@@ -24,7 +27,8 @@ namespace {
 constexpr std::size_t most_strokes = 8;
 
 // Each segment is a quad; its four vertices hold one end, the other end, and which corner they are:
-// 0 and 1 at the first end, 2 and 3 at the second.
+// 0 and 1 at the first end, 2 and 3 at the second. VTK drops triangles with two corners in one
+// place, so the odd corners come a quarter of the way along and are put back here.
 constexpr const char* vertex_code = R"(
 //VTK::System::Dec
 in vec4 vertexMC;
@@ -46,7 +50,8 @@ void main()
   vec4 stroke = strokeShapes[int(cornerMC.w + 0.5)];
   float radius = (stroke.x + grow) * pixelRatio;
   float rim = radius + 1.0;
-  vec4 here = MCDCMatrix * vertexMC;
+  vec3 end = side > 0.0 ? vertexMC.xyz : (4.0 * vertexMC.xyz - otherMC) / 3.0;
+  vec4 here = MCDCMatrix * vec4(end, 1.0);
   vec4 there = MCDCMatrix * vec4(otherMC, 1.0);
   vec2 half_size = 0.5 * viewportSize;
   vec2 along = (there.xy - here.xy) * half_size;
@@ -60,10 +65,10 @@ void main()
   shape = vec4(radius, stroke.yz, pixelRatio);
   paint = layerPaint.a > 0.0 ? layerPaint : strokePaints[int(cornerMC.w + 0.5)];
   bool front = max(dot(firstMC, towardsViewer), dot(secondMC, towardsViewer)) > 0.0;
-  float lift = front ? frontLift * radius : backLift * pixelRatio;
+  float lift = front ? frontLift * (stroke.x + widest) : backLift;
   gl_Position = here;
   gl_Position.xy += shift / half_size;
-  gl_Position.z -= (lift + layerLift * pixelRatio) * depthPerPixel;
+  gl_Position.z -= lift * pixelRatio * depthPerPixel + extraLift;
 }
 )";
 
@@ -133,12 +138,20 @@ std::array<Eigen::Vector3f, 2> side_normals(const Mesh& mesh, VertexId from, Ver
 
 void uniform4(vtkUniforms* uniforms, const char* name, const QColor& colour) {
   const std::array<float, 4> value =
-      colour.isValid() ? std::array{static_cast<float>(colour.redF()),
-                                    static_cast<float>(colour.greenF()),
-                                    static_cast<float>(colour.blueF()),
-                                    static_cast<float>(colour.alphaF())}
-                       : std::array{0.0F, 0.0F, 0.0F, 0.0F};
+      colour.isValid()
+          ? std::array{static_cast<float>(colour.redF()), static_cast<float>(colour.greenF()),
+                       static_cast<float>(colour.blueF()), static_cast<float>(colour.alphaF())}
+          : std::array{0.0F, 0.0F, 0.0F, 0.0F};
   uniforms->SetUniform4f(name, value.data());
+}
+
+/// VTK calls this right before it draws an actor, and sets the mask again for the next one. Only
+/// the surface hides lines; if they wrote depth, the round end of one segment would cut into the
+/// next where a line runs away from the viewer.
+void write_no_depth(vtkObject*, unsigned long, void* renderer, void*) {
+  auto* window =
+      vtkOpenGLRenderWindow::SafeDownCast(static_cast<vtkRenderer*>(renderer)->GetRenderWindow());
+  if (window != nullptr) window->GetState()->vtkglDepthMask(0);
 }
 
 }  // namespace
@@ -153,6 +166,8 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
                  const std::vector<StrokeLayer>& layers)
     : strokes_(std::move(strokes)), layers_(layers) {
   strokes_.resize(most_strokes);
+  float widest = 0.0F;
+  for (const StrokeLayer& layer : layers_) widest = std::max(widest, layer.grow);
   for (std::size_t k = 0; k < layers_.size(); ++k) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(data_);
@@ -162,6 +177,10 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
     for (const char* name : {"otherMC", "cornerMC", "firstMC", "secondMC"}) {
       mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS);
     }
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetCallback(write_no_depth);
+    observer->SetClientData(renderer);
+    mapper->AddObserver(vtkCommand::UpdateShaderEvent, observer);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     actor->ForceOpaqueOn();
@@ -186,8 +205,8 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
     uniforms->SetUniform4fv("strokeShapes", most_strokes, shapes.data());
     uniforms->SetUniform4fv("strokePaints", most_strokes, paints.data());
     uniforms->SetUniformf("grow", layers_[k].grow);
+    uniforms->SetUniformf("widest", widest);
     uniform4(uniforms, "layerPaint", layers_[k].colour);
-    uniforms->SetUniformf("layerLift", 0.5F * static_cast<float>(k));
     uniforms->SetUniformf("frontLift", static_cast<float>(front_lift));
     uniforms->SetUniformf("backLift", static_cast<float>(back_lift));
     renderer->AddActor(actor);
@@ -225,8 +244,9 @@ void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector
       for (std::size_t k = 0; k < 4; ++k) {
         const auto at = static_cast<vtkIdType>(4 * segment + k);
         const bool at_second = k > 1;
-        const Eigen::Vector3f here = (at_second ? b : a).cast<float>();
         const Eigen::Vector3f there = (at_second ? a : b).cast<float>();
+        Eigen::Vector3f here = (at_second ? b : a).cast<float>();
+        if (k % 2 == 1) here += 0.25F * (there - here);
         points->SetTypedTuple(at, here.data());
         other->SetTypedTuple(at, there.data());
         corner->SetTuple4(at, static_cast<double>(k), at_second ? next : arc,
@@ -275,9 +295,10 @@ void Ribbons::update(const RibbonFrame& frame) {
     uniforms->SetUniformf("pixelRatio", static_cast<float>(frame.pixel_ratio));
     uniforms->SetUniform2f("viewportSize", viewport.data());
     uniforms->SetUniform3f("towardsViewer", towards.data());
-    uniforms->SetUniformf("depthPerPixel",
-                          static_cast<float>(frame.depth_per_unit * frame.units_per_pixel /
-                                             frame.pixel_ratio));
+    uniforms->SetUniformf(
+        "depthPerPixel",
+        static_cast<float>(frame.depth_per_unit * frame.units_per_pixel / frame.pixel_ratio));
+    uniforms->SetUniformf("extraLift", static_cast<float>(frame.depth_per_unit * frame.extra_lift));
     actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
         "dashUnit", static_cast<float>(dash_unit));
   }

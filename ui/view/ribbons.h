@@ -24,7 +24,8 @@ struct Stroke {
   QColor colour;
 };
 
-/// Lines of one layer are all under those of the next.
+/// Lines of one layer are all under those of the next, and all lines of one Ribbons under those of
+/// the next in its renderer.
 struct StrokeLayer {
   float grow = 0.0F;  ///< Pixels wider than the stroke on each side.
   QColor colour;      ///< Invalid: the stroke's.
@@ -35,13 +36,14 @@ struct RibbonFrame {
   double pixel_ratio = 1.0;       ///< Device pixels per pixel of the strokes.
   double units_per_pixel = 1.0;   ///< Mesh unit per pixel of the strokes.
   double depth_per_unit = 1.0;    ///< Depth in device coordinates per mesh unit.
+  double extra_lift = 0.0;        ///< Mesh unit; for a surface that is only nearly the mesh.
   std::array<int, 2> viewport{};  ///< Device pixels.
   Point towards_viewer = Point::UnitZ();
 };
 
-/// How far lines are drawn in front of the surface they lie on, in half-widths where the surface
-/// faces the viewer, so that a surface that rises beside the line does not cover it; and in pixels
-/// where it faces away, so that no line shows through a thin wall.
+/// How far lines are drawn in front of the surface they lie on: in half-widths (of the widest
+/// layer) where the surface faces the viewer, so that a surface that rises beside the line does not
+/// cover it; in pixels where it faces away, so that no line shows through a thin wall.
 inline constexpr double front_lift = 2.5;
 inline constexpr double back_lift = 0.6;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -21,12 +20,13 @@
 #include <vtkTypeInt32Array.h>
 #include <vtkUniforms.h>
 #include <vtkUnsignedCharArray.h>
+#include <Eigen/Geometry>
 
 namespace arris::ui {
 namespace {
 
 // Clay for a bare part; lighter where coloured edges lie on it.
-const QColor bare_colour(201, 206, 214);
+const QColor bare_colour(212, 216, 223);
 const QColor paper_colour(232, 234, 237);
 const QColor unlabelled_colour(226, 227, 230);
 const QColor selected_colour(255, 190, 30);
@@ -48,7 +48,7 @@ constexpr const char* light_code = R"(
   float key = max(dot(normalVCVSOutput, vec3(-0.38, 0.48, 0.79)), 0.0);
   float fill = max(dot(normalVCVSOutput, vec3(0.62, -0.30, 0.72)), 0.0);
   float head = max(normalVCVSOutput.z, 0.0);
-  float bare = 0.22 + 0.50 * key + 0.18 * fill + 0.14 * head;
+  float bare = 0.30 + 0.52 * key + 0.18 * fill + 0.12 * head;
   float coloured = min(0.32 + 0.30 * key + 0.12 * fill + 0.3566 * head, 1.0);
   vec3 shaded = diffuseColor * mix(bare, coloured, colourShare);
   shaded += (1.0 - colourShare) * 0.10 * pow(key, 24.0);
@@ -56,13 +56,18 @@ constexpr const char* light_code = R"(
   gl_FragData[0] = vec4(shaded, opacity);
 )";
 
+/// As VTK declares them, but taken within the triangle where only a part of a pixel is covered:
+/// values at the end of a scale must not spill over to the colour beyond it.
+constexpr const char* vertex_place_code = "in vec2 tcoord; centroid out vec2 tcoordVCVSOutput;";
+constexpr const char* fragment_place_code = "centroid in vec2 tcoordVCVSOutput;";
+
 constexpr const char* lift_code = R"(
   //VTK::PositionVC::Impl
   gl_Position.z -= lift;
 )";
 
 std::vector<StrokeLayer> line_layers() {
-  return {{1.1F, QColor(255, 255, 255, 215)}, {0.0F, QColor()}};
+  return {{line_rim, QColor(255, 255, 255, 215)}, {0.0F, QColor()}};
 }
 
 std::vector<StrokeLayer> selected_layers() {
@@ -85,9 +90,9 @@ vtkSmartPointer<vtkCellArray> cells_of(const std::vector<Triangle>& triangles) {
   }
   for (vtkIdType i = 0; i < count; ++i) {
     for (int k = 0; k < 3; ++k) {
-      corners->SetValue(3 * i + k, static_cast<std::int32_t>(
-                                       triangles[static_cast<std::size_t>(i)]
-                                                [static_cast<std::size_t>(k)]));
+      corners->SetValue(3 * i + k,
+                        static_cast<std::int32_t>(
+                            triangles[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]));
     }
   }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
@@ -165,15 +170,17 @@ struct Scene::Shape {
     vtkShaderProperty* shader = actor->GetShaderProperty();
     shader->AddFragmentShaderReplacement("//VTK::Normal::Impl", true, normal_code, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, light_code, false);
+    shader->AddVertexShaderReplacement("//VTK::TCoord::Dec", true, vertex_place_code, false);
+    shader->AddFragmentShaderReplacement("//VTK::TCoord::Dec", true, fragment_place_code, false);
     renderer->AddActor(actor);
   }
 };
 
 Scene::Scene()
-    : lines_(line_renderer_, line_strokes(), line_layers()),
-      selected_lines_(line_renderer_, brighter(line_strokes()), selected_layers()),
-      label_outline_(line_renderer_, {{1.4F, 0.0F, 0.0F, QColor(255, 214, 0)}},
-                     {{1.2F, QColor(40, 30, 0)}, {0.0F, QColor()}}) {
+    : label_outline_(line_renderer_, {{3.9F, 0.0F, 0.0F, QColor(255, 214, 0)}},
+                     {{1.0F, QColor(40, 30, 0)}, {0.0F, QColor()}}),
+      lines_(line_renderer_, line_strokes(), line_layers()),
+      selected_lines_(line_renderer_, brighter(line_strokes()), selected_layers()) {
   fine_ = std::make_unique<Shape>(surface_renderer_);
   rough_ = std::make_unique<Shape>(surface_renderer_);
   fine_->actor->VisibilityOff();
@@ -370,8 +377,7 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   rough_->actor->SetVisibility(shown && coarse);
   const bool edge_field = labels_.empty() && field_ && field_->on_edges;
   net_->SetVisibility(shown && !coarse && (edge_field || edges_visible_));
-  net_->GetProperty()->SetLineWidth(static_cast<float>((edge_field ? 1.7 : 1.0) * pixel_ratio));
-  coarse_shown_ = coarse;
+  net_->GetProperty()->SetLineWidth(static_cast<float>((edge_field ? 1.3 : 1.0) * pixel_ratio));
 
   // In a parallel projection the camera's distance does not show; it stays in front of the part.
   const Point focus = camera.focus() - origin_;
@@ -390,6 +396,7 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   frame.pixel_ratio = pixel_ratio;
   frame.units_per_pixel = camera.height() / pixels.height() * pixel_ratio;
   frame.depth_per_unit = 2.0 / (2.4 * radius_);
+  frame.extra_lift = coarse ? coarse_->cell : 0.0;
   frame.viewport = {pixels.width(), pixels.height()};
   frame.towards_viewer = camera.towards_viewer();
   for (Ribbons* ribbons : {&lines_, &selected_lines_, &label_outline_}) ribbons->update(frame);
@@ -453,8 +460,7 @@ void Scene::show_scale_field() {
     if (i == steps + 1 && scale.above.isValid()) colour = scale.colour(HUGE_VAL);
     std::copy(colour.begin(), colour.end(),
               static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 0, 0)));
-    write(static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 1, 0)),
-          scale.undefined);
+    write(static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 1, 0)), scale.undefined);
   }
   texture_image_->Modified();
   vtkNew<vtkFloatArray> places;
@@ -466,7 +472,8 @@ void Scene::show_scale_field() {
       places->SetTypedTuple(v, place.data());
       continue;
     }
-    // Half of each face beside an undefined vertex still shows the field, as its neighbours have it.
+    // Half of each face beside an undefined vertex still shows the field, as its neighbours have
+    // it.
     double sum = 0.0;
     int count = 0;
     mesh_->for_ring(v, [&](HalfEdgeId h) {
@@ -488,8 +495,8 @@ void Scene::show_class_field() {
   const std::vector<double>& values = *field_->values;
   const auto array = colours(values.size());
   for (VertexId v = 0; v < values.size(); ++v) {
-    const bool known = values[v] >= 0.0 &&
-                       values[v] < static_cast<double>(field_->class_colours.size());
+    const bool known =
+        values[v] >= 0.0 && values[v] < static_cast<double>(field_->class_colours.size());
     write(array->GetPointer(3 * static_cast<vtkIdType>(v)),
           known ? field_->class_colours[static_cast<std::size_t>(values[v])]
                 : field_->scale.undefined);

@@ -32,6 +32,8 @@ namespace arris::ui {
 
 /// How each type of line is drawn, in the order of LineType; also what the legend shows.
 const std::vector<Stroke>& line_strokes();
+/// Width of the light rim on each side of a line that sets it off from dark surfaces; pixels.
+inline constexpr float line_rim = 1.1F;
 
 /// What VTK draws: the surface and its net in one renderer, the lines over them in another, so that
 /// lines can be drawn anew over a kept picture of the surface. Points are relative to the middle of
@@ -88,8 +90,7 @@ class Scene {
   std::vector<QColor> label_colours_;
   std::unordered_set<std::uint32_t> selected_labels_;
   bool edges_visible_ = false;
-  bool stale_ = true;        // colours have to be made again before the next frame
-  bool coarse_shown_ = false;
+  bool stale_ = true;  // colours have to be made again before the next frame
   std::uint64_t surface_version_ = 0;
 
   vtkNew<vtkRenderer> surface_renderer_;
@@ -102,9 +103,9 @@ class Scene {
   vtkNew<vtkPolyDataMapper> net_mapper_;
   vtkNew<vtkActor> net_;
   bool net_built_ = false;
+  Ribbons label_outline_;
   Ribbons lines_;
   Ribbons selected_lines_;
-  Ribbons label_outline_;
 };
 
 }  // namespace arris::ui

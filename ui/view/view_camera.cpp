@@ -25,9 +25,9 @@ void ViewCamera::look(const Point& towards_viewer, const Point& up) {
 }
 
 void ViewCamera::orbit(const Point& pivot, double about_up, double about_right) {
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(about_up, Point(up())) *
-                                Eigen::AngleAxisd(about_right, Point(right())))
-                                   .toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(about_up, Point(up())) * Eigen::AngleAxisd(about_right, Point(right())))
+          .toRotationMatrix();
   focus_ = pivot + turn * (focus_ - pivot);
   axes_ = turn * axes_;
   look(axes_.col(2), axes_.col(1));  // so that rounding never adds up to a skewed frame

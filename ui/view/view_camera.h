@@ -16,7 +16,9 @@ class ViewCamera {
   Point right() const { return axes_.col(0); }
   Point up() const { return axes_.col(1); }
   Point towards_viewer() const { return axes_.col(2); }
-  const Eigen::Matrix3d& axes() const { return axes_; }  ///< Columns: right, up, towards the viewer.
+  const Eigen::Matrix3d& axes() const {
+    return axes_;
+  }  ///< Columns: right, up, towards the viewer.
 
   double units_per_pixel(QSizeF size) const { return height_ / size.height(); }
   /// The point on the plane through the focus that is drawn at a position.
@@ -30,7 +32,8 @@ class ViewCamera {
   /// horizontal axis of the screen.
   void orbit(const Point& pivot, double about_up, double about_right);
   void pan(QPointF by, QSizeF size);
-  /// Magnifies; what is drawn at `position` stays there. The height stays within `least` and `most`.
+  /// Magnifies; what is drawn at `position` stays there. The height stays within `least` and
+  /// `most`.
   void zoom(double factor, QPointF position, QSizeF size, double least, double most);
   /// Puts points in the middle so that their extent on the screen takes `share` of it; keeps the
   /// direction. Nothing happens without points; the height is at least `least`.

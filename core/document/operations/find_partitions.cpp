@@ -39,6 +39,8 @@ Result<nlohmann::json> resolve_partitions(const Document& document, const nlohma
   }
   reader.whole("min_faces", default_min_faces(*document.mesh), 1,
                std::numeric_limits<std::int32_t>::max());
+  reader.whole("fill_holes", default_fill_holes(*document.mesh), 0,
+               std::numeric_limits<std::int32_t>::max());
   return reader.finish();
 }
 
@@ -47,6 +49,7 @@ Result<Document> apply_partitions(const Document& document, const nlohmann::json
   PartitionOptions options;
   options.criterion = parameters.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
   options.min_faces = parameters.at("min_faces");
+  options.fill_holes = parameters.at("fill_holes");
   for (const auto& interval : parameters.at("intervals"))
     options.intervals.push_back({interval[0], interval[1].is_null()
                                                   ? std::numeric_limits<double>::infinity()

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/document/document.h"
+#include "core/document/operation.h"
+#include "core/mesh/write_ply.h"
+#include "core/samples/mould.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temp_folder.h"
+
+/// Documents and their parts, made in one line. Each helper throws where it cannot, which fails the
+/// test at once.
+namespace arris::testing {
+
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) throw std::logic_error(result.error().message);
+  return std::move(*result);
+}
+
+inline CurvaturesPtr curvatures_of(const Mesh& mesh) { return value_of(compute_curvatures(mesh)); }
+
+/// An opened part that never was a file.
+inline Document document_of(const Triangles& triangles) {
+  PolygonFile file;
+  file.format = "PLY";
+  file.points = triangles.points;
+  file.starts.push_back(0);
+  for (const Triangle& t : triangles.triangles) {
+    file.corners.insert(file.corners.end(), t.begin(), t.end());
+    file.starts.push_back(file.corners.size());
+  }
+  Document document;
+  document.scan = value_of(make_scan(std::move(file), "memory"));
+  document.mesh = document.scan->mesh;
+  document.curvatures = curvatures_of(*document.mesh);
+  return document;
+}
+
+/// Writes a mesh as a file of the folder and returns its path.
+inline std::string write_mesh(const TempFolder& folder, const std::string& name,
+                              const Triangles& triangles) {
+  if (const auto written = write_ply(folder.file(name), *mesh_of(triangles), {}); !written)
+    throw std::logic_error(written.error().message);
+  return folder.file(name);
+}
+
+inline Triangles sample_mould(double edge_length) {
+  MouldOptions options;
+  options.edge_length = edge_length;
+  SampleMould mould = make_mould(options);
+  return {std::move(mould.points), std::move(mould.triangles)};
+}
+
+/// A flat square lattice from (0, 0) to (size, size) whose vertices are moved by `place(x, y)`.
+inline Triangles shaped_lattice(double size, double h,
+                                const std::function<Point(double, double)>& place) {
+  Triangles mesh = noisy_plane(size, h, 0.0, 0.0, 1);
+  for (Point& p : mesh.points) p = place(p.x(), p.y());
+  return mesh;
+}
+
+inline Document applied(const Document& document, const Operation& operation) {
+  return value_of(apply(document, operation));
+}
+
+}  // namespace arris::testing

@@ -1,0 +1,269 @@
+#include "ui/window/elements_presenter.h"
+
+#include <cmath>
+
+#include "core/base/number_text.h"
+
+namespace arris::ui {
+
+namespace {
+
+/// Boundaries that are no sharp lines have no id of their own: they are numbered from here on.
+constexpr std::uint32_t first_boundary = 0x80000000u;
+
+LineType type_of(const Boundary& boundary) {
+  switch (boundary.type) {
+    case BoundaryType::c0:
+      return boundary.mean_angle >= 0.0 ? LineType::c0_convex : LineType::c0_concave;
+    case BoundaryType::gn:
+      return LineType::gn;
+    case BoundaryType::undefined:
+      return LineType::undefined;
+    case BoundaryType::border:
+      break;
+  }
+  return LineType::border;
+}
+
+std::vector<ViewLine> view_lines(const Snapshot& snapshot) {
+  std::vector<ViewLine> lines;
+  lines.reserve(snapshot.boundaries.size());
+  for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
+    const Boundary& boundary = snapshot.boundaries[k];
+    lines.push_back({boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k,
+                     type_of(boundary), boundary.vertices});
+  }
+  return lines;
+}
+
+double shown(double value, int digits = 4) { return rounded(value, digits); }
+
+QString partition_name(std::uint32_t id) { return id == 0 ? QString("–") : QString::number(id); }
+
+QString interval_text(const CurvatureInterval& interval) {
+  const QString high =
+      std::isfinite(interval.max) ? QString::fromStdString(number_text(interval.max, 3)) : "∞";
+  return QString::fromStdString(number_text(interval.min, 3)) + " – " + high;
+}
+
+template <class Find>
+void drop_gone(ElementsPresenter::Ids& ids, const Find& find) {
+  std::erase_if(ids, [&](std::uint32_t id) { return !find(id); });
+}
+
+}  // namespace
+
+ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
+  auto* table = new ElementTable(
+      tr("lines"), {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Edges")},
+      {tr("Id of the line; it keeps it while thresholds move"),
+       tr("Convex or concave; closed lines have no ends"), tr("Length along the line"),
+       tr("Mean exterior angle (IHe), positive where convex"), tr("Number of sharp edges")},
+      parent);
+  table->set_empty_text(
+      tr("No sharp lines yet. Run the step “Sharp lines”, or drag TV_IH on the "
+         "histogram of IHe."));
+  return table;
+}
+
+ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
+  auto* table = new ElementTable(
+      tr("partitions"),
+      {tr("Partition"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Radius mm"), tr("Interval")},
+      {tr("Id of the partition; it keeps it while thresholds move"), tr("Area of its faces"),
+       tr("Number of faces"), tr("Mean value of the criterion (Kabs or IKabs)"),
+       tr("The mean read as the radius of a cylinder (Kabs only)"),
+       tr("Curvature interval it was found under")},
+      parent);
+  table->set_empty_text(
+      tr("No partitions yet. Run the step “Partitions”, or drag Kmax on the "
+         "histogram of Kabs."));
+  return table;
+}
+
+ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
+  auto* table = new ElementTable(
+      tr("boundaries"),
+      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Left"), tr("Right")},
+      {tr("Number"),
+       tr("C0: sharp line. Gn: between two partitions. Undefined: unassigned faces beyond. Border: "
+          "the scan ends"),
+       tr("Length along the boundary"), tr("Mean exterior angle, positive where convex"),
+       tr("Partition to its left"), tr("Partition to its right")},
+      parent);
+  table->set_empty_text(tr("Boundaries come with lines and partitions."));
+  return table;
+}
+
+ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables tables,
+                                     QObject* parent)
+    : QObject(parent), session_(session), view_(view), tables_(tables) {
+  connect(session_, &Session::changed, this, [this] { refresh(); });
+  connect(view_, &MeshView::clicked, this, &ElementsPresenter::clicked);
+  connect(tables_.lines, &ElementTable::selection_changed, this, [this](const Ids& ids) {
+    lines_ = ids;
+    partitions_.clear();
+    boundaries_.clear();
+    show_selection();
+    emit selection_changed();
+  });
+  connect(tables_.partitions, &ElementTable::selection_changed, this, [this](const Ids& ids) {
+    partitions_ = ids;
+    lines_.clear();
+    boundaries_.clear();
+    show_selection();
+    emit selection_changed();
+  });
+  connect(tables_.boundaries, &ElementTable::selection_changed, this, [this](const Ids& ids) {
+    boundaries_ = ids;
+    lines_.clear();
+    partitions_.clear();
+    show_selection();
+    emit selection_changed();
+  });
+  for (ElementTable* table : {tables_.lines, tables_.partitions, tables_.boundaries})
+    connect(table, &ElementTable::activated, this, [this] { zoom_to_selection(); });
+}
+
+void ElementsPresenter::set_partitions_shown(bool shown_now) {
+  if (partitions_shown_ == shown_now) return;
+  partitions_shown_ = shown_now;
+  refresh();
+}
+
+void ElementsPresenter::refresh() {
+  const Snapshot& snapshot = session_->shown();
+  const Document& document = snapshot.document;
+  drop_gone(lines_, [&](std::uint32_t id) { return document.lines.find(id); });
+  drop_gone(partitions_, [&](std::uint32_t id) { return document.partitions.find(id); });
+  drop_gone(boundaries_,
+            [&](std::uint32_t k) { return k >= 1 && k <= snapshot.boundaries.size(); });
+
+  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
+  // Ids grow with the session; colours and labels of the view are numbered by place, from 1.
+  std::vector<std::uint32_t> place(document.next_id, 0);
+  for (std::uint32_t k = 0; k < partitions.size(); ++k) place[partitions[k]->id] = k + 1;
+  std::vector<std::array<std::uint32_t, 2>> neighbours;
+  for (const Boundary& boundary : snapshot.boundaries)
+    if (boundary.left != 0 && boundary.right != 0 && boundary.left != boundary.right)
+      neighbours.push_back({place[boundary.left] - 1, place[boundary.right] - 1});
+  const std::vector<QColor> colours = partition_colours(partitions.size(), neighbours);
+
+  if (partitions_shown_ && !document.partitions.labels.empty()) {
+    std::vector<std::uint32_t> labels(document.mesh->face_count());
+    for (FaceId f = 0; f < labels.size(); ++f) labels[f] = place[document.partitions.labels[f]];
+    std::vector<QColor> by_label{QColor(205, 205, 205)};
+    by_label.insert(by_label.end(), colours.begin(), colours.end());
+    view_->set_face_labels(std::move(labels), std::move(by_label));
+  } else {
+    view_->set_face_labels({}, {});
+  }
+  view_->set_lines(view_lines(snapshot));
+
+  // Tables of a part with thousands of rows are filled only for the state that stays.
+  if (!session_->is_previewing()) {
+    std::vector<ElementRow> rows;
+    for (const LinePtr& line : document.lines.lines) {
+      const QString type = (line->convex() ? tr("convex") : tr("concave")) +
+                           (line->closed ? tr(", closed") : QString());
+      rows.push_back({line->id,
+                      {line->id, type, shown(line->length), shown(line->mean_angle, 3),
+                       static_cast<int>(line->vertices.size() - 1)},
+                      {}});
+    }
+    tables_.lines->set_rows(std::move(rows));
+    rows.clear();
+    for (std::size_t k = 0; k < partitions.size(); ++k) {
+      const Partition& p = *partitions[k];
+      const bool has_radius = p.criterion == Criterion::kabs && p.mean_value > 0.0;
+      rows.push_back({p.id,
+                      {p.id, shown(p.area), p.faces, shown(p.mean_value, 3),
+                       has_radius ? QVariant(shown(cylinder_radius(p.mean_value), 3)) : QVariant(),
+                       interval_text(p.interval)},
+                      colours[k]});
+    }
+    tables_.partitions->set_rows(std::move(rows));
+    rows.clear();
+    for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
+      const Boundary& b = snapshot.boundaries[k];
+      const std::string_view type = name_of(b.type);
+      rows.push_back({k + 1,
+                      {k + 1, QString::fromUtf8(type.data(), static_cast<qsizetype>(type.size())),
+                       shown(b.length), shown(b.mean_angle, 3), partition_name(b.left),
+                       partition_name(b.right)},
+                      {}});
+    }
+    tables_.boundaries->set_rows(std::move(rows));
+  }
+  show_selection();
+}
+
+void ElementsPresenter::show_selection() {
+  const Snapshot& snapshot = session_->shown();
+  Ids shown_lines = lines_;
+  for (const std::uint32_t k : boundaries_) {
+    const Boundary& boundary = snapshot.boundaries[k - 1];
+    shown_lines.insert(boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k - 1);
+  }
+  view_->set_selected_lines(shown_lines);
+  Ids labels;
+  const std::vector<PartitionPtr>& partitions = snapshot.document.partitions.partitions;
+  for (std::uint32_t k = 0; k < partitions.size(); ++k)
+    if (partitions_.contains(partitions[k]->id)) labels.insert(k + 1);
+  view_->set_selected_labels(labels);
+  tables_.lines->set_selected(lines_);
+  tables_.partitions->set_selected(partitions_);
+  tables_.boundaries->set_selected(boundaries_);
+}
+
+void ElementsPresenter::clicked(const std::optional<Pick>& pick, bool toggle) {
+  const Document& document = session_->shown().document;
+  Ids* chosen = nullptr;
+  std::uint32_t id = 0;
+  if (pick && pick->line >= first_boundary) {
+    chosen = &boundaries_;
+    id = pick->line - first_boundary + 1;
+  } else if (pick && pick->line != 0) {
+    chosen = &lines_;
+    id = pick->line;
+  } else if (pick && partitions_shown_ && pick->face != no_id) {
+    id = document.partitions.label(pick->face);
+    if (id != 0) chosen = &partitions_;
+  }
+  if (!toggle || !chosen) {
+    const bool again = chosen && chosen->size() == 1 && chosen->contains(id);
+    if (again) return;
+    lines_.clear();
+    partitions_.clear();
+    boundaries_.clear();
+  }
+  if (chosen && !chosen->insert(id).second) chosen->erase(id);
+  show_selection();
+  emit selection_changed();
+}
+
+void ElementsPresenter::clear_selection() {
+  lines_.clear();
+  partitions_.clear();
+  boundaries_.clear();
+  show_selection();
+  emit selection_changed();
+}
+
+void ElementsPresenter::zoom_to_selection() {
+  const Snapshot& snapshot = session_->shown();
+  std::vector<VertexId> vertices;
+  const auto add = [&](const auto& more) {
+    vertices.insert(vertices.end(), more.begin(), more.end());
+  };
+  for (const std::uint32_t id : lines_)
+    if (const Line* line = snapshot.document.lines.find(id)) add(line->vertices);
+  for (const std::uint32_t k : boundaries_) add(snapshot.boundaries[k - 1].vertices);
+  if (!partitions_.empty())
+    for (FaceId f = 0; f < snapshot.document.partitions.labels.size(); ++f)
+      if (partitions_.contains(snapshot.document.partitions.labels[f]))
+        add(snapshot.document.mesh->triangle(f));
+  if (!vertices.empty()) view_->zoom_to(vertices);
+}
+
+}  // namespace arris::ui

@@ -1,0 +1,143 @@
+#include "ui/window/field_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/number_text.h"
+
+namespace arris::ui {
+
+namespace {
+
+QString text(std::string_view view) {
+  return QString::fromUtf8(view.data(), static_cast<qsizetype>(view.size()));
+}
+
+/// Colours of the classes of Shape, in its order (figures 4 and 8).
+const std::vector<QColor>& shape_colours() {
+  static const std::vector<QColor> colours{
+      QColor(150, 150, 150), QColor(226, 226, 220), QColor(214, 96, 77),  QColor(67, 120, 190),
+      QColor(244, 180, 120), QColor(146, 197, 222), QColor(120, 180, 110)};
+  return colours;
+}
+
+}  // namespace
+
+QString title_of(Field field) {
+  const FieldInfo& info = info_of(field);
+  return info.unit.empty() ? text(info.name) : text(info.name) + " (" + text(info.unit) + ")";
+}
+
+FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramPanel* histogram,
+                               QObject* parent)
+    : QObject(parent), view_(view), panel_(panel), histogram_(histogram) {
+  QStringList names, tooltips;
+  for (const FieldInfo& info : field_table()) {
+    names << title_of(info.field);
+    tooltips << text(info.meaning);
+    ColourMapState& s = states_[static_cast<std::size_t>(info.field)];
+    s.field = static_cast<int>(info.field);
+    if (info.is_signed) s.scale.map = ColourMap::diverging;
+  }
+  panel_->set_fields(names, tooltips);
+  panel_->set_state(state());
+  connect(panel_, &ColourMapPanel::changed, this, &FieldPresenter::take);
+}
+
+void FieldPresenter::show(const Document& document) {
+  if (document.curvatures == curvatures_ && document.mesh == mesh_) return;
+  mesh_ = document.mesh;
+  curvatures_ = document.curvatures;
+  load();
+  refresh();
+}
+
+void FieldPresenter::set_field(Field field) {
+  if (field == field_) return;
+  field_ = field;
+  load();
+  refresh();
+}
+
+void FieldPresenter::take(const ColourMapState& wanted) {
+  const Field field = static_cast<Field>(wanted.field);
+  if (field != field_) {
+    set_field(field);  // with the colours it had before
+    return;
+  }
+  state() = wanted;
+  refresh();
+}
+
+void FieldPresenter::load() {
+  if (!curvatures_) {
+    values_.reset();
+    distribution_ = {};
+    return;
+  }
+  values_ = std::make_shared<const std::vector<double>>(field_values(*curvatures_, field_));
+  distribution_ = Distribution(*values_, field_weights(*mesh_, field_));
+}
+
+void FieldPresenter::refresh() {
+  const FieldInfo& info = info_of(field_);
+  ColourMapState& s = state();
+  if (s.range == ColourMapState::Range::percentile && !s.locked && !distribution_.empty()) {
+    s.scale.min = distribution_.quantile(s.low_percentile / 100.0);
+    s.scale.max = distribution_.quantile(s.high_percentile / 100.0);
+    if (info.is_signed) {  // zero in the middle of the diverging map
+      s.scale.max = std::max(std::abs(s.scale.min), std::abs(s.scale.max));
+      s.scale.min = -s.scale.max;
+    }
+    if (!(s.scale.max > s.scale.min)) s.scale.max = s.scale.min + 1.0;
+    s.scale.min = rounded(s.scale.min, 3);
+    s.scale.max = rounded(s.scale.max, 3);
+  }
+  panel_->set_state(s);
+
+  if (!values_) {
+    view_->set_field(std::nullopt);
+    histogram_->set_histogram({}, s.scale);
+    emit changed();
+    return;
+  }
+  ViewField shown;
+  shown.title = title_of(field_);
+  shown.values = values_;
+  shown.on_edges = info.on_edges;
+  shown.scale = s.scale;
+  shown.read_as_radius = field_ == Field::kabs;
+  if (info.is_class) {
+    for (const std::string_view name : shape_names()) shown.class_names << text(name);
+    shown.class_colours = shape_colours();
+  }
+  view_->set_field(shown);
+
+  Histogram histogram;
+  histogram.title = shown.title;
+  constexpr std::size_t count = 160;
+  double low = distribution_.quantile(0.0005), high = distribution_.quantile(0.9995);
+  if (info.is_class) {
+    low = -0.5;
+    high = static_cast<double>(shape_names().size()) - 0.5;
+  } else if (!info.is_signed) {
+    histogram.logarithmic = true;
+    low = std::max(distribution_.quantile(0.002), high * 1e-6);
+  } else if (info.on_edges) {
+    high = std::max({std::abs(low), std::abs(high), 60.0});  // room for the angle of any threshold
+    low = -high;
+  }
+  if (!(high > low)) {
+    histogram.logarithmic = false;
+    low -= 0.5;
+    high = low + 1.0;
+  }
+  const Distribution::Bins bins = distribution_.bins(
+      low, high, info.is_class ? shape_names().size() : count, histogram.logarithmic);
+  histogram.edges = bins.edges;
+  histogram.weights = bins.shares;
+  histogram_->set_histogram(histogram, s.scale);
+  emit changed();
+}
+
+}  // namespace arris::ui

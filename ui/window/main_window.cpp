@@ -1,0 +1,649 @@
+#include "ui/window/main_window.h"
+
+#include <cmath>
+
+#include <QAction>
+#include <QActionGroup>
+#include <QApplication>
+#include <QClipboard>
+#include <QCloseEvent>
+#include <QDir>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStandardPaths>
+#include <QStatusBar>
+#include <QTimer>
+#include <QToolBar>
+
+#include "core/base/number_text.h"
+#include "core/document/export.h"
+#include "core/document/journal.h"
+#include "core/mesh/write_ply.h"
+#include "core/samples/mould.h"
+#include "ui/panels/history_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/window/picture_dialog.h"
+#include "ui/window/theme.h"
+
+namespace arris::ui {
+
+namespace {
+
+constexpr int most_recent = 10;
+constexpr int progress_delay = 300;  // ms: shorter work shows no progress
+
+QString number(double value, int digits = 4) {
+  return std::isnan(value) ? QString("–") : QString::fromStdString(number_text(value, digits));
+}
+
+QString counted(std::size_t count, const QString& what) {
+  return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + what;
+}
+
+/// The same icon-free look everywhere: text with shortcut, tooltip that says what it does.
+QAction* action(QMenu* menu, const QString& text, const QKeySequence& shortcut,
+                const QString& tooltip) {
+  QAction* result = menu->addAction(text);
+  result->setShortcut(shortcut);
+  result->setToolTip(tooltip);
+  result->setStatusTip(tooltip);
+  return result;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
+  setWindowTitle("Arris");
+  setAcceptDrops(true);
+  setDockNestingEnabled(true);
+  resize(1440, 900);
+
+  session_ = new Session(this);
+  stack_ = new QStackedWidget(this);
+  start_page_ = new StartPage(stack_);
+  view_ = new MeshView(stack_);
+  stack_->addWidget(start_page_);
+  stack_->addWidget(view_);
+  setCentralWidget(stack_);
+
+  make_docks();
+  fields_ = new FieldPresenter(view_, colour_map_, histogram_, this);
+  // The view takes the new mesh before anything else shows on it.
+  connect(session_, &Session::changed, this, [this](bool other_mesh) {
+    const Document& document = session_->shown().document;
+    if (other_mesh) {
+      view_->set_mesh(document.mesh, false);
+      stack_->setCurrentWidget(document.empty() ? static_cast<QWidget*>(start_page_) : view_);
+    }
+    fields_->show(document);
+  });
+  elements_ = new ElementsPresenter(session_, view_,
+                                    {lines_table_, partitions_table_, boundaries_table_}, this);
+  thresholds_ = new ThresholdPresenter(session_, fields_, histogram_, this);
+  steps_ = new StepsPresenter(session_, steps_panel_, this);
+  make_status_bar();
+  make_actions();
+
+  connect(start_page_, &StartPage::open_wanted, this, &MainWindow::choose_file);
+  connect(start_page_, &StartPage::sample_wanted, this, &MainWindow::open_sample);
+  connect(start_page_, &StartPage::recent_wanted, this, &MainWindow::open);
+  connect(history_panel_, &HistoryPanel::travel, session_, &Session::travel);
+  connect(session_, &Session::changed, this, [this] {
+    refresh_counts();
+    if (!session_->is_previewing()) {
+      refresh_history();
+      refresh_actions();
+    }
+  });
+  connect(session_, &Session::opened, this, [this] {
+    const Document& document = session_->current().document;
+    const QString path = QString::fromStdString(document.scan_path);
+    setWindowTitle(QFileInfo(path).fileName() + " – Arris");
+    view_->fit();
+    show_partitions(false);
+    remember_recent(path);
+    if (!document.scan->report.clean())
+      statusBar()->showMessage(
+          tr("The scan was mended where a mesh cannot hold it: see Part ▸ Load report."), 10000);
+  });
+  connect(session_, &Session::done, this, [this](const QString& operation) {
+    if (operation == "find_partitions") show_partitions(true);
+  });
+  connect(session_, &Session::failed, this, [this](const QString& message) {
+    QMessageBox box(QMessageBox::Warning, "Arris", message, QMessageBox::Ok, this);
+    box.exec();
+  });
+  connect(session_, &Session::busy_changed, this, [this](bool busy) {
+    if (busy) {
+      progress_->setRange(0, 0);
+      progress_->setFormat(QString());
+      progress_delay_->start(progress_delay);
+    } else {
+      progress_delay_->stop();
+      progress_->hide();
+      cancel_->hide();
+    }
+    refresh_actions();
+  });
+  connect(session_, &Session::progress, this, [this](double fraction, const QString& what) {
+    progress_->setRange(0, 100);
+    progress_->setValue(static_cast<int>(100.0 * fraction));
+    progress_->setFormat(what + " %p %");
+  });
+  connect(view_, &MeshView::hovered, this, &MainWindow::show_hover);
+  connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
+  connect(fields_, &FieldPresenter::changed, this, [this] {
+    for (QAction* a : field_actions_->actions())
+      a->setChecked(a->data().toInt() == static_cast<int>(fields_->field()));
+  });
+
+  const QSettings settings;
+  restoreGeometry(settings.value("window/geometry").toByteArray());
+  restoreState(settings.value("window/state").toByteArray());
+  refresh_recent();
+  refresh_actions();
+  refresh_counts();
+}
+
+MainWindow::~MainWindow() = default;
+
+QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, QWidget* content,
+                                  Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(name);
+  dock->setWidget(content);
+  addDockWidget(area, dock);
+  return dock;
+}
+
+void MainWindow::make_docks() {
+  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  steps_panel_ = new StepsPanel(this);
+  colour_map_ = new ColourMapPanel(this);
+  lines_table_ = ElementsPresenter::make_lines_table(this);
+  partitions_table_ = ElementsPresenter::make_partitions_table(this);
+  boundaries_table_ = ElementsPresenter::make_boundaries_table(this);
+  history_panel_ = new HistoryPanel(this);
+  histogram_ = new HistogramPanel(this);
+
+  add_dock("steps", tr("Steps"), steps_panel_, Qt::LeftDockWidgetArea);
+  // Tables above, colours and history below; tabs only after the split.
+  QDockWidget* lines = add_dock("lines", tr("Lines"), lines_table_, Qt::RightDockWidgetArea);
+  QDockWidget* colours =
+      add_dock("colour_map", tr("Colour map"), colour_map_, Qt::RightDockWidgetArea);
+  QDockWidget* partitions =
+      add_dock("partitions", tr("Partitions"), partitions_table_, Qt::RightDockWidgetArea);
+  QDockWidget* boundaries =
+      add_dock("boundaries", tr("Boundaries"), boundaries_table_, Qt::RightDockWidgetArea);
+  QDockWidget* history =
+      add_dock("history", tr("History"), history_panel_, Qt::RightDockWidgetArea);
+  tabifyDockWidget(lines, partitions);
+  tabifyDockWidget(partitions, boundaries);
+  tabifyDockWidget(colours, history);
+  lines->raise();
+  colours->raise();
+  setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+  QDockWidget* histogram =
+      add_dock("histogram", tr("Histogram and thresholds"), histogram_, Qt::BottomDockWidgetArea);
+  resizeDocks({findChild<QDockWidget*>("steps"), lines}, {290, 350}, Qt::Horizontal);
+  resizeDocks({histogram}, {190}, Qt::Vertical);
+}
+
+void MainWindow::make_status_bar() {
+  hover_label_ = new QLabel(this);
+  counts_label_ = new QLabel(this);
+  progress_ = new QProgressBar(this);
+  progress_->setFixedWidth(240);
+  progress_->hide();
+  cancel_ = new QPushButton(tr("Cancel"), this);
+  cancel_->setToolTip(tr("Stops the running work; nothing of it is kept."));
+  cancel_->hide();
+  statusBar()->addWidget(hover_label_, 1);
+  statusBar()->addPermanentWidget(progress_);
+  statusBar()->addPermanentWidget(cancel_);
+  statusBar()->addPermanentWidget(counts_label_);
+  connect(cancel_, &QPushButton::clicked, session_, &Session::cancel);
+  progress_delay_ = new QTimer(this);
+  progress_delay_->setSingleShot(true);
+  connect(progress_delay_, &QTimer::timeout, this, [this] {
+    progress_->show();
+    cancel_->show();
+  });
+}
+
+void MainWindow::make_actions() {
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  connect(
+      action(file, tr("&Open scan…"), QKeySequence::Open, tr("Open an STL, PLY, OBJ or OFF file")),
+      &QAction::triggered, this, &MainWindow::choose_file);
+  connect(action(file, tr("Open the sample &mould"), QKeySequence("Ctrl+Shift+O"),
+                 tr("Open the mould part that Arris makes itself")),
+          &QAction::triggered, this, &MainWindow::open_sample);
+  recent_menu_ = file->addMenu(tr("Open &recent"));
+  file->addSeparator();
+  save_picture_ = action(file, tr("Save &picture…"), QKeySequence("Ctrl+P"),
+                         tr("Save the view at a size in pixels, with its scalar bar"));
+  connect(save_picture_, &QAction::triggered, this, &MainWindow::choose_picture);
+  copy_picture_ = action(file, tr("&Copy picture"), QKeySequence("Ctrl+Shift+C"),
+                         tr("Copy the view to the clipboard"));
+  connect(copy_picture_, &QAction::triggered, this, [this] {
+    PictureOptions options = picture_options_;
+    options.size = view_->size() * view_->devicePixelRatioF();
+    QApplication::clipboard()->setImage(view_->picture(options));
+  });
+  export_ = action(file, tr("&Export results…"), QKeySequence("Ctrl+E"),
+                   tr("Write lines, boundaries, labelled scan and operations into a folder"));
+  connect(export_, &QAction::triggered, this, &MainWindow::choose_results_folder);
+  file->addSeparator();
+  connect(action(file, tr("&Quit"), QKeySequence::Quit, tr("Close Arris")), &QAction::triggered,
+          this, &QWidget::close);
+
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  undo_ = action(edit, tr("&Undo"), QKeySequence::Undo, tr("Take back the last operation"));
+  connect(undo_, &QAction::triggered, session_, &Session::undo);
+  redo_ = action(edit, tr("&Redo"), QKeySequence::Redo, tr("Do it again"));
+  connect(redo_, &QAction::triggered, session_, &Session::redo);
+  edit->addSeparator();
+  QAction* clear =
+      action(edit, tr("&Clear selection"), QKeySequence("Ctrl+Shift+A"), tr("Select nothing"));
+  connect(clear, &QAction::triggered, elements_, &ElementsPresenter::clear_selection);
+
+  QMenu* part = menuBar()->addMenu(tr("&Part"));
+  run_lines_ = action(part, tr("Find sharp &lines"), QKeySequence("Ctrl+L"),
+                      tr("Run the step with the parameters of its card"));
+  connect(run_lines_, &QAction::triggered, this, [this] { steps_->run("find_sharp_lines"); });
+  run_partitions_ = action(part, tr("Find &partitions"), QKeySequence("Ctrl+R"),
+                           tr("Run the step with the parameters of its card"));
+  connect(run_partitions_, &QAction::triggered, this, [this] { steps_->run("find_partitions"); });
+  run_all_ = action(part, tr("&Run all that is out of date"), QKeySequence("F5"),
+                    tr("Run the steps that were not run, or that an earlier step has changed"));
+  connect(run_all_, &QAction::triggered, steps_, &StepsPresenter::run_out_of_date);
+  part->addSeparator();
+  flip_ =
+      action(part, tr("&Flip orientation"), {}, tr("Turn all faces round: convex becomes concave"));
+  connect(flip_, &QAction::triggered, this, [this] {
+    session_->run({Operation{"flip_orientation", nlohmann::json::object()}});
+  });
+  QAction* drop = action(part, tr("&Drop small components"), {},
+                         tr("Delete the components with fewer than a hundredth of the faces"));
+  connect(drop, &QAction::triggered, this, [this] {
+    const std::size_t faces = session_->current().document.mesh->face_count();
+    session_->run(
+        {Operation{"delete_faces", {{"components_under", std::max<std::size_t>(faces / 100, 2)}}}});
+  });
+  part->addSeparator();
+  report_ = action(part, tr("Load r&eport…"), {}, tr("What the file held and what was mended"));
+  connect(report_, &QAction::triggered, this, &MainWindow::show_load_report);
+
+  QMenu* look = menuBar()->addMenu(tr("&View"));
+  show_field_ =
+      action(look, tr("&Curvature"), QKeySequence("C"), tr("Colour the surface by a field"));
+  show_partitions_ =
+      action(look, tr("&Partitions"), QKeySequence("P"), tr("Colour the surface by partitions"));
+  auto* surface = new QActionGroup(this);
+  for (QAction* a : {show_field_, show_partitions_}) {
+    a->setCheckable(true);
+    surface->addAction(a);
+  }
+  show_field_->setChecked(true);
+  connect(show_partitions_, &QAction::toggled, elements_, &ElementsPresenter::set_partitions_shown);
+
+  QMenu* field_menu = look->addMenu(tr("&Field"));
+  field_actions_ = new QActionGroup(this);
+  int key = 1;
+  for (const FieldInfo& info : field_table()) {
+    QAction* a =
+        action(field_menu, title_of(info.field), QKeySequence(QString("Alt+%1").arg(key++)),
+               QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
+    a->setCheckable(true);
+    a->setData(static_cast<int>(info.field));
+    a->setChecked(info.field == fields_->field());
+    field_actions_->addAction(a);
+    connect(a, &QAction::triggered, this, [this, field = info.field] { set_field(field); });
+  }
+  look->addSeparator();
+  struct Toggle {
+    QString text, shortcut, tooltip;
+    bool on;
+    void (MeshView::*set)(bool);
+  };
+  for (const Toggle& t : {Toggle{tr("&Lines"), "L", tr("Show lines and boundaries"), true,
+                                 &MeshView::set_lines_visible},
+                          Toggle{tr("Mesh &edges"), "E", tr("Show the edges of the mesh"), false,
+                                 &MeshView::set_edges_visible},
+                          Toggle{tr("&Scalar bar"), "B", tr("Show the scalar bar"), true,
+                                 &MeshView::set_scalar_bar_visible}}) {
+    QAction* a = action(look, t.text, QKeySequence(t.shortcut), t.tooltip);
+    a->setCheckable(true);
+    a->setChecked(t.on);
+    connect(a, &QAction::toggled, view_, t.set);
+  }
+  QAction* dark = action(look, tr("&Dark"), QKeySequence("Ctrl+D"), tr("Light or dark window"));
+  dark->setCheckable(true);
+  connect(dark, &QAction::toggled, this, [this](bool on) {
+    set_theme(*qApp, on);
+    view_->set_dark(on);
+    QSettings().setValue("window/dark", on);
+  });
+  dark->setChecked(QSettings().value("window/dark", false).toBool());
+  look->addSeparator();
+  QAction* fit = action(look, tr("&Fit"), QKeySequence("F"), tr("The whole part in the view"));
+  connect(fit, &QAction::triggered, view_, &MeshView::fit);
+  QAction* zoom = action(look, tr("&Zoom to selection"), QKeySequence("Z"),
+                         tr("The selected lines and partitions in the view"));
+  connect(zoom, &QAction::triggered, elements_, &ElementsPresenter::zoom_to_selection);
+  QMenu* standard = look->addMenu(tr("S&tandard views"));
+  using View = MeshView::StandardView;
+  const std::vector<std::pair<QString, View>> views{
+      {tr("Front"), View::front},        {tr("Back"), View::back}, {tr("Left"), View::left},
+      {tr("Right"), View::right},        {tr("Top"), View::top},   {tr("Bottom"), View::bottom},
+      {tr("Isometric"), View::isometric}};
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    QAction* a = action(standard, views[k].first, QKeySequence(QString::number((k + 1) % 7)),
+                        tr("Look from there"));
+    connect(a, &QAction::triggered, this, [this, v = views[k].second] { view_->look_from(v); });
+    part_actions_.push_back(a);
+  }
+  look->addSeparator();
+  panels_menu_ = look->addMenu(tr("Pa&nels"));
+  for (QDockWidget* dock : findChildren<QDockWidget*>())
+    panels_menu_->addAction(dock->toggleViewAction());
+
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  connect(
+      action(help, tr("&Start page"), QKeySequence("F1"), tr("The start page and the five steps")),
+      &QAction::triggered, this, [this] {
+        const bool on_start = stack_->currentWidget() == start_page_;
+        if (!on_start || !session_->current().document.empty())
+          stack_->setCurrentWidget(on_start ? static_cast<QWidget*>(view_) : start_page_);
+      });
+  connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
+          &MainWindow::show_about);
+
+  for (QAction* a : {save_picture_, copy_picture_, export_, flip_, drop, report_, show_field_,
+                     show_partitions_, fit, zoom})
+    part_actions_.push_back(a);
+  for (QMenu* menu : findChildren<QMenu*>()) menu->setToolTipsVisible(true);
+
+  QToolBar* bar = addToolBar(tr("Tools"));
+  bar->setObjectName("tools");
+  bar->setMovable(false);
+  bar->addActions({undo_, redo_});
+  bar->addSeparator();
+  bar->addActions({show_field_, show_partitions_});
+  bar->addSeparator();
+  bar->addActions({run_all_, fit, save_picture_});
+}
+
+void MainWindow::open(const QString& path) { session_->open(path); }
+
+void MainWindow::open_sample() {
+  const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+  QDir().mkpath(folder);
+  const QString path = folder + "/sample_mould.ply";
+  SampleMould mould = make_mould();
+  const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
+  Result<void> written = mesh ? write_ply(path.toStdString(), **mesh, {})
+                              : Result<void>(tl::unexpected<Error>(mesh.error()));
+  if (!written) {
+    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
+    return;
+  }
+  open(path);
+}
+
+void MainWindow::set_field(Field field) {
+  show_field_->setChecked(true);
+  fields_->set_field(field);
+}
+
+void MainWindow::show_partitions(bool shown) {
+  (shown ? show_partitions_ : show_field_)->setChecked(true);
+}
+
+void MainWindow::choose_file() {
+  QSettings settings;
+  const QString path =
+      QFileDialog::getOpenFileName(this, tr("Open scan"), settings.value("folders/open").toString(),
+                                   tr("Meshes (*.stl *.ply *.obj *.off);;All files (*)"));
+  if (path.isEmpty()) return;
+  settings.setValue("folders/open", QFileInfo(path).absolutePath());
+  open(path);
+}
+
+bool MainWindow::save_picture(const QString& path, const PictureOptions& options, QString* error) {
+  const QImage image = view_->picture(options);
+  QString message;
+  if (image.isNull())
+    message =
+        tr("The picture could not be drawn at %1 × %2 pixels: the graphics driver refused it. "
+           "Choose a smaller size.")
+            .arg(options.size.width())
+            .arg(options.size.height());
+  else if (!image.save(path))
+    message = tr("%1 could not be written. Is the folder there, and does the name end in .png or "
+                 ".jpg?")
+                  .arg(path);
+  if (error) *error = message;
+  return message.isEmpty();
+}
+
+void MainWindow::choose_picture() {
+  picture_options_.scalar_bar = true;
+  PictureDialog dialog(picture_options_, view_->size(), this);
+  if (dialog.exec() != QDialog::Accepted) return;
+  picture_options_ = dialog.options();
+  QSettings settings;
+  const QString name =
+      QFileInfo(QString::fromStdString(session_->current().document.scan_path)).completeBaseName() +
+      ".png";
+  QString path = QFileDialog::getSaveFileName(
+      this, tr("Save picture"), QDir(settings.value("folders/pictures").toString()).filePath(name),
+      tr("PNG (*.png);;JPEG (*.jpg)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += ".png";
+  settings.setValue("folders/pictures", QFileInfo(path).absolutePath());
+  QString error;
+  if (save_picture(path, picture_options_, &error))
+    statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
+  else
+    QMessageBox::warning(this, "Arris", error);
+}
+
+void MainWindow::choose_results_folder() {
+  QSettings settings;
+  const QString folder = QFileDialog::getExistingDirectory(
+      this, tr("Folder for lines, boundaries, labelled scan and operations"),
+      settings.value("folders/results").toString());
+  if (folder.isEmpty()) return;
+  settings.setValue("folders/results", folder);
+  const Document& document = session_->current().document;
+  const auto path = [&](const char* name) { return QDir(folder).filePath(name).toStdString(); };
+  Result<void> written = write_file_whole(path("lines.obj"), lines_obj(document));
+  if (written) written = write_file_whole(path("boundaries.obj"), boundaries_obj(document));
+  if (written)
+    written =
+        write_labelled_scan(path("scan_partitions.ply"), *document.scan, labels_on_scan(document));
+  if (written)
+    written = write_file_whole(path("operations.jsonl"), journal_text(session_->history()));
+  if (written)
+    statusBar()->showMessage(
+        tr("lines.obj, boundaries.obj, scan_partitions.ply and operations.jsonl written to %1")
+            .arg(folder),
+        8000);
+  else
+    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
+}
+
+void MainWindow::show_load_report() {
+  const LoadReport& report = session_->current().document.scan->report;
+  QString text =
+      tr("%1: %2 with %3 and %4.")
+          .arg(QFileInfo(QString::fromStdString(report.file)).fileName(),
+               QString::fromStdString(report.format), counted(report.file_faces, tr("faces")),
+               counted(report.file_vertices, tr("vertices")));
+  text += "\n" + tr("The mesh has %1, %2, %3 and Euler number %4.")
+                     .arg(counted(report.faces, tr("triangles")),
+                          counted(report.components, tr("components")),
+                          counted(report.border_edges, tr("border edges")))
+                     .arg(report.euler_number);
+  QMessageBox box(QMessageBox::Information, tr("Load report"), text, QMessageBox::Ok, this);
+  QString details;
+  for (const std::string& sentence : report.sentences())
+    details += "• " + QString::fromStdString(sentence) + "\n";
+  box.setInformativeText(details.isEmpty() ? tr("Nothing had to be mended.") : details.trimmed());
+  box.exec();
+}
+
+void MainWindow::show_about() {
+  QMessageBox::about(this, tr("About Arris"),
+                     tr("<h3>Arris %1</h3><p>Segments scanned moulds: sharp lines, curvature and "
+                        "partitions, after "
+                        "Lesage, Léon and Véron, “Discrete curvature approximations and "
+                        "segmentation of polyhedral "
+                        "surfaces”.</p><p>BSD 3-Clause licence.</p>")
+                         .arg(QApplication::applicationVersion()));
+}
+
+void MainWindow::remember_recent(const QString& path) {
+  QSettings settings;
+  QStringList recent = settings.value("recent").toStringList();
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  recent.removeAll(absolute);
+  recent.prepend(absolute);
+  while (recent.size() > most_recent) recent.removeLast();
+  settings.setValue("recent", recent);
+  refresh_recent();
+}
+
+void MainWindow::refresh_recent() {
+  const QStringList recent = QSettings().value("recent").toStringList();
+  start_page_->set_recent(recent);
+  recent_menu_->clear();
+  recent_menu_->setEnabled(!recent.isEmpty());
+  for (const QString& path : recent)
+    connect(recent_menu_->addAction(QFileInfo(path).fileName()), &QAction::triggered, this,
+            [this, path] { open(path); });
+}
+
+void MainWindow::refresh_actions() {
+  const bool busy = session_->busy();
+  const bool part = !session_->current().document.empty();
+  for (QAction* a : part_actions_) a->setEnabled(part);
+  for (QAction* a : {run_lines_, run_partitions_}) a->setEnabled(part && !busy);
+  flip_->setEnabled(part && !busy);
+  run_all_->setEnabled(part && !busy && steps_->anything_out_of_date());
+  undo_->setEnabled(false);
+  redo_->setEnabled(false);
+  if (busy) return;  // the history belongs to the work that runs
+  const History& history = session_->history();
+  const auto name = [&](std::uint32_t sequence) {
+    return QString::fromStdString(describe(history.entries()[sequence - 1].operation));
+  };
+  // The first row is the opening of the part: there is nothing before it to go back to.
+  undo_->setEnabled(history.head() > 1);
+  undo_->setText(history.head() > 1 ? tr("Undo: %1").arg(name(history.head())) : tr("Undo"));
+  redo_->setEnabled(history.can_redo());
+  redo_->setText(tr("Redo"));
+  const std::vector<std::uint32_t> rows = history.line_of_travel();
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k)
+    if (rows[k] == history.head()) redo_->setText(tr("Redo: %1").arg(name(rows[k + 1])));
+  undo_->setIconText(tr("Undo"));
+  redo_->setIconText(tr("Redo"));
+}
+
+void MainWindow::refresh_history() {
+  std::vector<HistoryRow> rows;
+  const History& history = session_->history();
+  bool undone = false;
+  for (const std::uint32_t sequence : history.line_of_travel()) {
+    const Operation& operation = history.entries()[sequence - 1].operation;
+    HistoryRow row;
+    row.sequence = sequence;
+    row.text = QString::fromStdString(describe(operation));
+    row.tooltip = QString::fromStdString(operation.to_json().dump(1));
+    row.current = sequence == history.head();
+    row.undone = undone;
+    undone = undone || row.current;
+    rows.push_back(row);
+  }
+  history_panel_->set_rows(rows);
+}
+
+void MainWindow::refresh_counts() {
+  const Document& document = session_->shown().document;
+  if (document.empty()) {
+    counts_label_->setText({});
+    return;
+  }
+  QString text = counted(document.mesh->face_count(), tr("faces"));
+  if (document.find_sharp_lines)
+    text += "  ·  " + counted(document.lines.lines.size(), tr("lines"));
+  if (document.find_partitions)
+    text += "  ·  " + counted(document.partitions.partitions.size(), tr("partitions"));
+  counts_label_->setText(text);
+}
+
+void MainWindow::show_hover(const std::optional<Pick>& pick) {
+  const Document& document = session_->shown().document;
+  if (!pick || document.empty() || pick->vertex >= document.mesh->vertex_count()) {
+    hover_label_->setText({});
+    return;
+  }
+  const Curvatures& c = *document.curvatures;
+  const VertexId v = pick->vertex;
+  QString text = tr("vertex %1   K %2   H %3   Kabs %4")
+                     .arg(v)
+                     .arg(number(c.k[v]), number(c.h[v]), number(c.kabs[v]));
+  if (c.kabs[v] > 0.0) text += tr(" (r %1 mm)").arg(number(cylinder_radius(c.kabs[v]), 3));
+  text += tr("   IKabs %1").arg(number(c.ikabs[v]));
+  if (pick->edge < document.mesh->edge_count())
+    text += tr("   |IHe| %1°").arg(number(std::abs(c.beta[pick->edge]) * 180.0 / M_PI, 3));
+  if (pick->line != 0 && document.lines.find(pick->line)) text += tr("   line %1").arg(pick->line);
+  if (const std::uint32_t label = document.partitions.label(pick->face); label != 0)
+    text += tr("   partition %1").arg(label);
+  hover_label_->setText(text);
+}
+
+void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>&) {
+  if (session_->current().document.empty()) return;
+  QMenu menu(this);
+  menu.addActions({show_field_, show_partitions_});
+  menu.addSeparator();
+  for (QAction* a : part_actions_)
+    if (a->shortcut() == QKeySequence("F") || a->shortcut() == QKeySequence("Z")) menu.addAction(a);
+  menu.addSeparator();
+  menu.addActions({copy_picture_, save_picture_});
+  menu.exec(global);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile())
+    event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  open(event->mimeData()->urls().first().toLocalFile());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings settings;
+  settings.setValue("window/geometry", saveGeometry());
+  settings.setValue("window/state", saveState());
+  session_->cancel();
+  event->accept();
+}
+
+}  // namespace arris::ui

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <QMainWindow>
+
+#include "ui/window/elements_presenter.h"
+#include "ui/window/field_presenter.h"
+#include "ui/window/session.h"
+#include "ui/window/steps_presenter.h"
+#include "ui/window/threshold_presenter.h"
+
+class QAction;
+class QActionGroup;
+class QDockWidget;
+class QLabel;
+class QMenu;
+class QProgressBar;
+class QPushButton;
+class QStackedWidget;
+class QTimer;
+
+namespace arris::ui {
+
+class HistoryPanel;
+class StartPage;
+
+/// The workbench: the part in the centre, steps on the left, tables on the right, the histogram
+/// with its thresholds below. Put together from panels (which show) and presenters (which decide).
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  void open(const QString& path);
+  void open_sample();
+  void set_field(Field field);
+  void show_partitions(bool shown);
+  /// Saves the view; errors are shown to the user where `quiet` is not set. True: written.
+  bool save_picture(const QString& path, const PictureOptions& options, QString* error = nullptr);
+
+  Session& session() { return *session_; }
+  MeshView& view() { return *view_; }
+  HistogramPanel& histogram() { return *histogram_; }
+  FieldPresenter& fields() { return *fields_; }
+  ElementsPresenter& elements() { return *elements_; }
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void make_docks();
+  void make_actions();
+  void make_status_bar();
+  void choose_file();
+  void choose_picture();
+  void choose_results_folder();
+  void show_load_report();
+  void show_about();
+  void remember_recent(const QString& path);
+  void refresh_recent();
+  void refresh_actions();
+  void refresh_history();
+  void refresh_counts();
+  void show_hover(const std::optional<Pick>& pick);
+  void context_menu(const QPoint& global, const std::optional<Pick>& pick);
+  QDockWidget* add_dock(const QString& name, const QString& title, QWidget* content,
+                        Qt::DockWidgetArea area);
+
+  Session* session_;
+  QStackedWidget* stack_;
+  StartPage* start_page_;
+  MeshView* view_;
+  ColourMapPanel* colour_map_;
+  StepsPanel* steps_panel_;
+  HistogramPanel* histogram_;
+  HistoryPanel* history_panel_;
+  ElementTable* lines_table_;
+  ElementTable* partitions_table_;
+  ElementTable* boundaries_table_;
+  FieldPresenter* fields_;
+  ElementsPresenter* elements_;
+  ThresholdPresenter* thresholds_;
+  StepsPresenter* steps_;
+
+  QMenu* recent_menu_;
+  QMenu* panels_menu_;
+  QAction* save_picture_;
+  QAction* copy_picture_;
+  QAction* export_;
+  QAction* undo_;
+  QAction* redo_;
+  QAction* run_lines_;
+  QAction* run_partitions_;
+  QAction* run_all_;
+  QAction* flip_;
+  QAction* report_;
+  QAction* show_field_;
+  QAction* show_partitions_;
+  QActionGroup* field_actions_;
+  std::vector<QAction*> part_actions_;  // need an open part
+
+  QLabel* hover_label_;
+  QLabel* counts_label_;
+  QProgressBar* progress_;
+  QPushButton* cancel_;
+  QTimer* progress_delay_;
+  PictureOptions picture_options_;
+};
+
+}  // namespace arris::ui

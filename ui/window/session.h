@@ -1,0 +1,106 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QString>
+#include <QThreadPool>
+
+#include "core/document/history.h"
+#include "core/partitions/boundaries.h"
+
+namespace arris::ui {
+
+/// A document with the boundaries derived from it, as the window shows it.
+struct Snapshot {
+  Document document;
+  std::vector<Boundary> boundaries;
+};
+
+/// The open part: its history, and the work on it, which runs on a thread of its own. All calls and
+/// all signals are on the UI thread.
+class Session : public QObject {
+  Q_OBJECT
+ public:
+  explicit Session(QObject* parent = nullptr);
+  ~Session() override;
+
+  /// What is to be shown: the preview while there is one, else the current document.
+  const Snapshot& shown() const { return previewed_ ? *previewed_ : current_; }
+  const Snapshot& current() const { return current_; }
+  bool is_previewing() const { return previewed_ != nullptr; }
+  const History& history() const { return history_; }
+  /// Seconds the last run of an operation took here; 0: not run in this window.
+  double seconds_of(const std::string& operation) const;
+
+  /// Parameters of a step as last run in the document shown, or in the current one; else as they
+  /// would be by default. An empty object where there is no part.
+  nlohmann::json parameters(const std::string& step) const;
+  nlohmann::json current_parameters(const std::string& step) const;
+
+  bool busy() const { return busy_; }
+  /// Opens a file in a history of its own. The open part stays until the new one is there.
+  void open(const QString& path);
+  /// Runs operations one after the other, each a history entry; stops at the first that fails.
+  void run(std::vector<Operation> operations);
+  void undo();
+  void redo();
+  void travel(std::uint32_t sequence);
+  /// Asks the running work to stop; nothing of it is kept.
+  void cancel();
+
+  /// Live tuning: shows what the operation would give, on the current document. The latest wins;
+  /// nothing is journalled.
+  void preview(const Operation& operation);
+  /// Lets go: commits the operation as one history entry.
+  void commit_preview(const Operation& operation);
+  void cancel_preview();
+
+ signals:
+  /// Another document is current, or shown. `other_mesh`: its mesh is another one than before.
+  void changed(bool other_mesh);
+  /// A file was opened (after changed()).
+  void opened();
+  void busy_changed(bool busy);
+  void progress(double fraction, const QString& what);
+  /// An operation went through: its name.
+  void done(const QString& operation);
+  void failed(const QString& message);
+
+ private:
+  void start(std::function<void()> work);
+  void finish_work();
+  void run_next();
+  void start_preview();
+  Context context_of_work();
+  void show(Snapshot snapshot);
+
+  History history_;
+  Snapshot current_;
+  std::shared_ptr<const Snapshot> previewed_;
+  std::vector<std::pair<std::string, double>> seconds_;
+  /// Defaults of steps that the current document has not run; worked out when first asked for.
+  mutable std::map<std::string, nlohmann::json> defaults_;
+
+  QThreadPool pool_;  // one thread: work goes one after the other
+  bool busy_ = false;
+  std::stop_source stop_;
+  std::vector<Operation> queue_;  // still to run
+
+  struct PreviewResult {
+    Operation wanted;
+    Performed performed;
+  };
+  std::optional<Operation> wanted_preview_;  // the latest, not started yet
+  bool preview_running_ = false;
+  std::uint64_t preview_round_ = 0;  // results of earlier rounds are stale
+  std::optional<PreviewResult> preview_result_;
+};
+
+}  // namespace arris::ui

@@ -1,0 +1,241 @@
+#include "ui/window/steps_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QLocale>
+
+#include "core/base/number_text.h"
+#include "core/sharp_lines/sharp_lines.h"
+
+namespace arris::ui {
+
+namespace {
+
+QString seconds_text(double seconds) {
+  if (seconds <= 0.0) return {};
+  return QString::fromStdString(seconds < 0.0095 ? "< 0.01" : number_text(seconds, 2)) + " s";
+}
+
+QString counted(std::size_t count, const QString& one, const QString& many) {
+  return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + (count == 1 ? one : many);
+}
+
+StepCard later(const QString& name, const QString& title, const QString& tooltip) {
+  StepCard card;
+  card.name = name;
+  card.title = title;
+  card.tooltip = tooltip;
+  card.state = StepState::unavailable;
+  return card;
+}
+
+StepParameter real(const QString& key, const QString& label, const QString& tooltip, double value,
+                   double least, double most, int decimals, const QString& suffix) {
+  StepParameter p;
+  p.key = key;
+  p.label = label;
+  p.tooltip = tooltip;
+  p.value = value;
+  p.least = least;
+  p.most = most;
+  p.decimals = decimals;
+  p.suffix = suffix;
+  return p;
+}
+
+StepParameter whole(const QString& key, const QString& label, const QString& tooltip, int value,
+                    int least, int most) {
+  StepParameter p = real(key, label, tooltip, 0.0, least, most, 0, {});
+  p.kind = StepParameter::Kind::whole;
+  p.value = value;
+  return p;
+}
+
+}  // namespace
+
+StepsPresenter::StepsPresenter(Session* session, StepsPanel* panel, QObject* parent)
+    : QObject(parent), session_(session), panel_(panel) {
+  connect(session_, &Session::changed, this, &StepsPresenter::refresh);
+  connect(session_, &Session::done, this, &StepsPresenter::refresh);
+  connect(session_, &Session::busy_changed, panel_, &StepsPanel::set_busy);
+  connect(panel_, &StepsPanel::run_requested, this,
+          [this](const QString& step, const QVariantMap& values) {
+            session_->run({operation_from(step, values)});
+          });
+  connect(panel_, &StepsPanel::run_out_of_date_requested, this, &StepsPresenter::run_out_of_date);
+  refresh();
+}
+
+Operation StepsPresenter::operation_from(const QString& step, const QVariantMap& values) const {
+  Operation operation{step.toStdString(), session_->current_parameters(step.toStdString())};
+  for (auto it = values.begin(); it != values.end(); ++it) {
+    const std::string key = it.key().toStdString();
+    if (key == "intervals") {
+      nlohmann::json intervals = nlohmann::json::array();
+      for (const QVariant& row : it.value().toList()) {
+        const QVariantList ends = row.toList();
+        const double max = ends.at(1).toDouble();
+        intervals.push_back(
+            {ends.at(0).toDouble(), std::isfinite(max) ? nlohmann::json(max) : nlohmann::json()});
+      }
+      operation.parameters[key] = intervals;
+    } else if (it.value().typeId() == QMetaType::QString) {
+      operation.parameters[key] = it.value().toString().toStdString();
+    } else if (it.value().typeId() == QMetaType::Int) {
+      operation.parameters[key] = it.value().toInt();
+    } else {
+      operation.parameters[key] = it.value().toDouble();
+    }
+  }
+  return operation;
+}
+
+void StepsPresenter::run(const QString& step) {
+  session_->run({operation_from(step, panel_->values(step))});
+}
+
+bool StepsPresenter::anything_out_of_date() const {
+  const Document& document = session_->current().document;
+  return !document.empty() &&
+         (!document.find_sharp_lines || document.find_sharp_lines->out_of_date ||
+          !document.find_partitions || document.find_partitions->out_of_date);
+}
+
+void StepsPresenter::run_out_of_date() {
+  const Document& document = session_->current().document;
+  if (document.empty()) return;
+  std::vector<Operation> operations;
+  const bool lines = !document.find_sharp_lines || document.find_sharp_lines->out_of_date;
+  if (lines)
+    operations.push_back(operation_from("find_sharp_lines", panel_->values("find_sharp_lines")));
+  if (lines || !document.find_partitions || document.find_partitions->out_of_date) {
+    // Intervals never chosen come from the part once its lines are known.
+    operations.push_back(document.find_partitions
+                             ? operation_from("find_partitions", panel_->values("find_partitions"))
+                             : Operation{"find_partitions", nlohmann::json::object()});
+  }
+  session_->run(std::move(operations));
+}
+
+void StepsPresenter::refresh() {
+  const Document& document = session_->shown().document;
+  std::vector<StepCard> cards;
+  StepCard open;
+  open.name = "open";
+  open.title = tr("Scan");
+  open.runnable = false;
+  open.tooltip = tr("The loaded mesh and what had to be mended in it.");
+  if (!document.empty()) {
+    const Mesh& mesh = *document.mesh;
+    open.state = StepState::done;
+    open.result =
+        counted(mesh.face_count(), tr("face"), tr("faces")) + ", " +
+        tr("edges %1 mm, %2")
+            .arg(QString::fromStdString(number_text(mesh.mean_edge_length(), 3)),
+                 counted(mesh.border_edge_count(), tr("border edge"), tr("border edges")));
+    if (!document.scan->report.clean()) open.result += "; " + tr("mended, see the load report");
+    open.time = seconds_text(session_->seconds_of("open"));
+  }
+  cards.push_back(open);
+  cards.push_back(later("simplify", tr("Simplification"),
+                        tr("Removes vertices inside error zones (section 4.1). Comes with a later "
+                           "version.")));
+  cards.push_back(later("swap_edges", tr("Edge swapping"),
+                        tr("Swaps edges so that sharp lines run along edges (section 4.2). Comes "
+                           "with a later version.")));
+
+  StepCard lines;
+  lines.name = "find_sharp_lines";
+  lines.title = tr("Sharp lines");
+  lines.tooltip = tr("Finds the sharp lines of the part (section 6).");
+  StepCard partitions;
+  partitions.name = "find_partitions";
+  partitions.title = tr("Partitions");
+  partitions.tooltip = tr("Splits the part into areas of slowly varying curvature (section 7).");
+  if (!document.empty()) {
+    const auto state = [](const std::optional<Step>& step) {
+      return !step               ? StepState::not_run
+             : step->out_of_date ? StepState::out_of_date
+                                 : StepState::done;
+    };
+    const nlohmann::json p = session_->parameters("find_sharp_lines");
+    const double longest = 1000.0 * std::max(1.0, document.mesh->diagonal());
+    lines.state = state(document.find_sharp_lines);
+    lines.time = seconds_text(session_->seconds_of("find_sharp_lines"));
+    lines.parameters = {
+        real("angle", tr("Angle TV_IH"),
+             tr("Least exterior angle across a sharp line. TV_IK follows from it."),
+             p.value("angle", 30.0), 0.1, 179.9, 2, " °"),
+        whole("candidates", tr("Candidates"),
+              tr("Edges kept at a vertex by the candidate rule (figure 26); 3 suits most parts."),
+              p.value("candidates", 3), 1, 32),
+        real("min_length", tr("Least length"),
+             tr("Isolated lines shorter than this are removed; 0 keeps them."),
+             p.value("min_length", 0.0), 0.0, longest, 3, " mm"),
+        whole("parallel_distance", tr("Parallel within"),
+              tr("Of two parallel lines of one sign this many edges apart the weaker is removed; 0 "
+                 "keeps both."),
+              p.value("parallel_distance", 1), 0, 4),
+        real("bridge_gap", tr("Bridge gaps"),
+             tr("Loose ends that face each other over at most this distance are joined; 0 joins "
+                "none."),
+             p.value("bridge_gap", 0.0), 0.0, longest, 3, " mm")};
+    if (document.find_sharp_lines) {
+      double length = 0.0;
+      for (const LinePtr& line : document.lines.lines) length += line->length;
+      lines.result = counted(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
+                     QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
+    }
+
+    const nlohmann::json q = session_->parameters("find_partitions");
+    partitions.state = state(document.find_partitions);
+    partitions.time = seconds_text(session_->seconds_of("find_partitions"));
+    StepParameter criterion;
+    criterion.key = "criterion";
+    criterion.label = tr("Criterion");
+    criterion.tooltip = tr("Kabs on dense meshes, its invariant IKabs on sparse ones.");
+    criterion.kind = StepParameter::Kind::choice;
+    criterion.choices = {"kabs", "ikabs"};
+    criterion.choice_labels = {"Kabs", "IKabs"};
+    criterion.value = QString::fromStdString(q.value("criterion", "kabs"));
+    StepParameter intervals;
+    intervals.key = "intervals";
+    intervals.label = tr("Intervals");
+    intervals.tooltip =
+        tr("Curvature intervals Kmin – Kmax, run one after the other over what is "
+           "left.");
+    intervals.kind = StepParameter::Kind::intervals;
+    QVariantList list;
+    for (const auto& interval : q.value("intervals", nlohmann::json::array()))
+      list << QVariant(QVariantList{interval[0].get<double>(),
+                                    interval[1].is_null() ? qInf() : interval[1].get<double>()});
+    intervals.value = list;
+    intervals.least = 0.0;
+    intervals.most = 1e12;
+    intervals.decimals = 9;
+    partitions.parameters = {
+        criterion, intervals,
+        whole("min_faces", tr("Least faces"), tr("Partitions with fewer faces are not kept."),
+              q.value("min_faces", 1), 1, 1000000000),
+        whole("fill_holes", tr("Fill under"),
+              tr("Unassigned areas with fewer faces join the partition around them; 0 fills none."),
+              q.value("fill_holes", 0), 0, 1000000000)};
+    if (document.find_partitions)
+      partitions.result =
+          counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) + ", " +
+          tr("%1 % of the area")
+              .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)));
+  }
+  cards.push_back(lines);
+  cards.push_back(later("equilateralize", tr("Equilateralisation"),
+                        tr("Swaps edges so that faces are nearly equilateral (section 4.3). Comes "
+                           "with a later version.")));
+  cards.push_back(later("smooth_curvature", tr("Curvature smoothing"),
+                        tr("Averages curvature over neighbours, never across a line (section 4.4). "
+                           "Comes with a later version.")));
+  cards.push_back(partitions);
+  panel_->set_cards(cards);
+}
+
+}  // namespace arris::ui

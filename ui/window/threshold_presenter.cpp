@@ -1,0 +1,140 @@
+#include "ui/window/threshold_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/base/number_text.h"
+
+namespace arris::ui {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double least_angle = 1.0, most_angle = 120.0;  // degrees, of the handle
+
+double ikabs_of_angle(double degrees) { return ikabs_of_straight_edge(degrees * degree); }
+
+double angle_of_ikabs(double ikabs) {
+  return std::sqrt(ikabs / ikabs_of_straight_edge(1.0)) / degree;
+}
+
+QString number(double value, int digits = 3) {
+  return QString::fromStdString(number_text(value, digits));
+}
+
+}  // namespace
+
+ThresholdPresenter::ThresholdPresenter(Session* session, FieldPresenter* fields,
+                                       HistogramPanel* histogram, QObject* parent)
+    : QObject(parent), session_(session), fields_(fields), histogram_(histogram) {
+  connect(histogram_, &HistogramPanel::threshold_dragged, this, [this](int handle, double value) {
+    if (session_->busy()) return;
+    dragging_ = true;
+    session_->preview(operation_for(targets_[static_cast<std::size_t>(handle)], value));
+  });
+  connect(histogram_, &HistogramPanel::threshold_finished, this, [this](int handle, double value) {
+    const Operation operation = operation_for(targets_[static_cast<std::size_t>(handle)], value);
+    dragging_ = false;
+    session_->commit_preview(operation);
+  });
+  connect(histogram_, &HistogramPanel::threshold_cancelled, this, [this](int) {
+    dragging_ = false;
+    session_->cancel_preview();
+    refresh();
+  });
+  connect(session_, &Session::changed, this, [this] { refresh(); });
+  connect(fields_, &FieldPresenter::changed, this, &ThresholdPresenter::refresh);
+}
+
+Operation ThresholdPresenter::operation_for(const Target& target, double value) const {
+  // From the document at mouse down, not from the preview of a moment ago.
+  const bool lines = target.kind != Target::Kind::interval_bound;
+  nlohmann::json parameters =
+      session_->current_parameters(lines ? "find_sharp_lines" : "find_partitions");
+  if (lines) {
+    const double angle = target.kind == Target::Kind::sharp_angle ? value : angle_of_ikabs(value);
+    parameters["angle"] = std::clamp(rounded(angle, 4), least_angle, most_angle);
+    return {"find_sharp_lines", parameters};
+  }
+  // Every end at this bound moves; an interval that would vanish is pushed along.
+  nlohmann::json intervals = nlohmann::json::array();
+  for (nlohmann::json interval : parameters["intervals"]) {
+    for (auto& end : interval)
+      if (end.is_number() && end.get<double>() == target.bound) end = rounded(value, 4);
+    const double min = interval[0];
+    if (interval[1].is_null() || interval[1].get<double>() > min) intervals.push_back(interval);
+  }
+  if (!intervals.empty()) parameters["intervals"] = intervals;
+  return {"find_partitions", parameters};
+}
+
+void ThresholdPresenter::refresh() {
+  if (session_->shown().document.empty()) {
+    targets_.clear();
+    histogram_->set_handles({});
+    return;
+  }
+  std::vector<ThresholdHandle> handles;
+  std::vector<Target> targets;
+  const Field field = fields_->field();
+  if (field == Field::ihe || field == Field::ikabs) {
+    const nlohmann::json parameters = session_->parameters("find_sharp_lines");
+    const double angle = parameters["angle"];
+    ThresholdHandle handle;
+    if (field == Field::ihe) {
+      handle.name = "TV_IH";
+      handle.value = angle;
+      handle.least = least_angle;
+      handle.most = most_angle;
+      handle.reading = "TV_IK " + number(ikabs_of_angle(angle));
+      targets.push_back({Target::Kind::sharp_angle});
+    } else {
+      handle.name = "TV_IK";
+      handle.value = ikabs_of_angle(angle);
+      handle.least = ikabs_of_angle(least_angle);
+      handle.most = ikabs_of_angle(most_angle);
+      handle.reading = "TV_IH " + number(angle) + "°";
+      targets.push_back({Target::Kind::sharp_ikabs});
+    }
+    handle.tooltip =
+        tr("Sharp lines are looked for above this threshold. Drag it: the lines follow.");
+    handles.push_back(handle);
+  }
+  nlohmann::json partitions;
+  if (field == Field::kabs || field == Field::ikabs) {
+    partitions = session_->parameters("find_partitions");
+    if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs")) partitions = {};
+  }
+  if (partitions.contains("intervals")) {
+    std::set<double> lower, upper;
+    for (const auto& interval : partitions["intervals"]) {
+      if (interval[0].get<double>() > 0.0) lower.insert(interval[0].get<double>());
+      if (interval[1].is_number()) upper.insert(interval[1].get<double>());
+    }
+    std::set<double> bounds = lower;
+    bounds.insert(upper.begin(), upper.end());
+    for (const double bound : bounds) {
+      ThresholdHandle handle;
+      const bool is_max = upper.contains(bound), is_min = lower.contains(bound);
+      handle.name = is_max && is_min ? "Kmax, Kmin" : is_max ? "Kmax" : "Kmin";
+      handle.value = bound;
+      const Distribution& distribution = fields_->distribution();
+      handle.most = std::max(distribution.max(), bound * 1.01);
+      handle.least = std::min(handle.most * 1e-7, bound);
+      if (field == Field::kabs) handle.reading = "r = " + number(cylinder_radius(bound)) + " mm";
+      handle.tooltip =
+          tr("End of a curvature interval: partitions take faces whose vertices lie between Kmin "
+             "and Kmax. Drag it: the partitions follow.");
+      handles.push_back(handle);
+      targets.push_back({Target::Kind::interval_bound, bound});
+    }
+  }
+  histogram_->set_handles(handles);
+  // During a drag operations go on from the document at mouse down, where the bound had its old
+  // value.
+  if (!dragging_) targets_ = std::move(targets);
+}
+
+}  // namespace arris::ui

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <QObject>
+
+#include "ui/panels/histogram_panel.h"
+#include "ui/window/field_presenter.h"
+#include "ui/window/session.h"
+
+namespace arris::ui {
+
+/// The thresholds as handles on the histogram: TV_IH over IHe, the same as TV_IK over IKabs, and
+/// the ends of the curvature intervals over the criterion. Dragging one previews the operation it
+/// belongs to, letting go commits it.
+class ThresholdPresenter : public QObject {
+  Q_OBJECT
+ public:
+  ThresholdPresenter(Session* session, FieldPresenter* fields, HistogramPanel* histogram,
+                     QObject* parent);
+
+  /// Handles anew, from the document shown and the field shown.
+  void refresh();
+
+ private:
+  /// What a handle moves.
+  struct Target {
+    enum class Kind { sharp_angle, sharp_ikabs, interval_bound } kind;
+    double bound = 0.0;  // interval_bound: the value at mouse down
+  };
+  Operation operation_for(const Target& target, double value) const;
+
+  Session* session_;
+  FieldPresenter* fields_;
+  HistogramPanel* histogram_;
+  std::vector<Target> targets_;  // of each handle
+  bool dragging_ = false;
+};
+
+}  // namespace arris::ui
