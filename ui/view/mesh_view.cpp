@@ -207,7 +207,7 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
         in_background<RayTree>(impl_->workers, [shared = impl_->mesh] { return RayTree(shared); });
     if (impl_->mesh->face_count() > 2 * stand_in_faces) {
       impl_->coarse = in_background<CoarseMesh>(
-          [shared = impl_->mesh] { return make_coarse(*shared, stand_in_faces); });
+          impl_->workers, [shared = impl_->mesh] { return make_coarse(*shared, stand_in_faces); });
     }
   }
   if (fit) this->fit();

@@ -301,7 +301,7 @@ void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Ove
   const QRectF panel(size.width() - margin - inner - 2 * padding,
                      size.height() - margin - line - 13.0 - padding, inner + 2 * padding,
                      line + 13.0 + padding);
-  if (panel.left() < margin || panel.top() < margin || panel.intersects(taken)) return;
+  if (panel.left() < 0.4 * size.width() || panel.top() < margin || panel.intersects(taken)) return;
   paint_panel(painter, look, panel);
   paint_text(painter, look.font, look.text,
              {panel.left() + padding, panel.top() + 4.0, inner, line}, Qt::AlignCenter, text);

@@ -286,7 +286,8 @@ void Ribbons::set_visible(bool visible) {
 }
 
 void Ribbons::update(const RibbonFrame& frame) {
-  const double dash_unit = std::exp2(std::round(std::log2(frame.units_per_pixel)));
+  // Rather longer than shorter: gaps must stay gaps.
+  const double dash_unit = std::exp2(std::ceil(std::log2(frame.units_per_pixel) - 0.25));
   const std::array<float, 2> viewport{static_cast<float>(frame.viewport[0]),
                                       static_cast<float>(frame.viewport[1])};
   const Eigen::Vector3f towards = frame.towards_viewer.cast<float>();

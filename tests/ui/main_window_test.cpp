@@ -1,0 +1,306 @@
+// Drives the whole window by mouse and keyboard, as a user would. Needs a display (Xvfb will do).
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <QAction>
+#include <QApplication>
+#include <QDir>
+#include <QImage>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTimer>
+
+#include "core/mesh/write_ply.h"
+#include "tests/support/meshes.h"
+#include "ui/panels/element_table.h"
+#include "ui/panels/history_panel.h"
+#include "ui/window/main_window.h"
+
+namespace arris::ui {
+namespace {
+
+constexpr int patience = 60000;  // ms
+
+class MainWindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QStandardPaths::setTestModeEnabled(true);
+    QApplication::setOrganizationName("arris-test");
+    QSettings().clear();
+    window = std::make_unique<MainWindow>();
+    window->resize(1200, 800);
+    window->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+    window->activateWindow();
+  }
+
+  void open_sample() {
+    window->open_sample();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !document().empty() && idle(); }, patience));
+    QTest::qWait(50);
+  }
+  const Document& document() const { return window->session().current().document; }
+  const Document& shown() const { return window->session().shown().document; }
+  bool idle() const { return !window->session().busy(); }
+  std::uint32_t rows() const {
+    return static_cast<std::uint32_t>(window->session().history().entries().size());
+  }
+  void run_both() {
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+  }
+  /// Widget position where `wanted` holds for the pick, searched over the view.
+  std::optional<QPoint> find(const std::function<bool(const Pick&)>& wanted) {
+    MeshView& view = window->view();
+    for (int y = 4; y < view.height(); y += 6)
+      for (int x = 4; x < view.width(); x += 6)
+        if (const auto pick = view.pick({x, y}); pick && wanted(*pick)) return QPoint(x, y);
+    return std::nullopt;
+  }
+
+  std::unique_ptr<MainWindow> window;
+};
+
+TEST_F(MainWindowTest, OpensTheSampleAndDrawsIt) {
+  open_sample();
+  EXPECT_GT(document().mesh->face_count(), 20000u);
+  EXPECT_EQ(rows(), 1u);
+  const QImage image = window->view().grabFramebuffer();
+  ASSERT_FALSE(image.isNull());
+  // The part is there: the middle of the view differs from its corner.
+  const QColor corner = image.pixelColor(image.width() - 3, image.height() / 2);
+  int different = 0;
+  for (int k = -40; k <= 40; k += 4) {
+    const QColor middle = image.pixelColor(image.width() / 2 + k, image.height() / 2 + k);
+    EXPECT_EQ(middle.alpha(), 255);
+    different += std::abs(middle.lightness() - corner.lightness()) > 20;
+  }
+  EXPECT_GT(different, 10);
+}
+
+TEST_F(MainWindowTest, AWrongFileIsToldInASentenceAndTheOpenPartStays) {
+  open_sample();
+  const MeshPtr before = document().mesh;
+  QString message;
+  QTimer::singleShot(500, [&] {
+    if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+      message = box->text();
+      box->accept();
+    }
+  });
+  window->open("/no/such/file.stl");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && !message.isEmpty(); }, patience));
+  EXPECT_TRUE(message.contains("/no/such/file.stl")) << message.toStdString();
+  EXPECT_EQ(document().mesh, before);
+}
+
+TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
+  open_sample();
+  window->set_field(Field::ihe);
+  HistogramPanel& histogram = window->histogram();
+  ASSERT_EQ(histogram.handles().size(), 1u);
+  EXPECT_EQ(histogram.handles()[0].name, "TV_IH");
+
+  const QPoint start = histogram.handle_position(0);
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, start);
+  int previews = 0;
+  QObject::connect(&window->session(), &Session::changed, window.get(),
+                   [&] { previews += window->session().is_previewing(); });
+  for (int k = 1; k <= 12; ++k) {
+    QTest::mouseMove(&histogram, start + QPoint(4 * k, 0));
+    QTest::qWait(30);
+  }
+  ASSERT_TRUE(QTest::qWaitFor([&] { return previews > 3; }, patience));
+  EXPECT_EQ(rows(), 1u) << "nothing is journalled while the mouse moves";
+  EXPECT_FALSE(document().find_sharp_lines);
+  EXPECT_TRUE(shown().find_sharp_lines);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(48, 0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 2 && idle(); }, patience));
+  EXPECT_GT(document().lines.lines.size(), 0u);
+  EXPECT_NEAR(document().find_sharp_lines->parameters["angle"].get<double>(),
+              histogram.handles()[0].value, 0.05);
+}
+
+TEST_F(MainWindowTest, EscapeWhileDraggingRestores) {
+  open_sample();
+  window->set_field(Field::ihe);
+  HistogramPanel& histogram = window->histogram();
+  const double before = histogram.handles()[0].value;
+  const QPoint start = histogram.handle_position(0);
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, start);
+  for (int k = 1; k <= 5; ++k) {
+    QTest::mouseMove(&histogram, start + QPoint(6 * k, 0));
+    QTest::qWait(30);
+  }
+  QTest::keyClick(&histogram, Qt::Key_Escape);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(30, 0));
+  QTest::qWait(200);
+  EXPECT_EQ(rows(), 1u);
+  EXPECT_FALSE(shown().find_sharp_lines);
+  EXPECT_DOUBLE_EQ(histogram.handles()[0].value, before);
+}
+
+TEST_F(MainWindowTest, DraggingTheCurvatureBoundMovesThePartitions) {
+  open_sample();
+  run_both();
+  ASSERT_EQ(rows(), 3u);
+  window->set_field(Field::kabs);
+  HistogramPanel& histogram = window->histogram();
+  ASSERT_GE(histogram.handles().size(), 1u);
+  const auto before = document().find_partitions->parameters["intervals"];
+  const QPoint start = histogram.handle_position(0);
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, start);
+  for (int k = 1; k <= 6; ++k) {
+    QTest::mouseMove(&histogram, start - QPoint(5 * k, 0));
+    QTest::qWait(30);
+  }
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start - QPoint(30, 0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 4 && idle(); }, patience));
+  EXPECT_NE(document().find_partitions->parameters["intervals"], before);
+  EXPECT_LT(document().find_partitions->parameters["intervals"][0][1].get<double>(),
+            before[0][1].get<double>());
+}
+
+TEST_F(MainWindowTest, LinesAndPartitionsSelectBothWays) {
+  open_sample();
+  run_both();
+  const auto on_line = find([&](const Pick& p) { return document().lines.find(p.line); });
+  ASSERT_TRUE(on_line);
+  const std::uint32_t line = window->view().pick(*on_line)->line;
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, *on_line);
+  EXPECT_EQ(window->elements().selected_lines(), ElementsPresenter::Ids{line});
+
+  ASSERT_TRUE(window->elements().partitions_shown());
+  const auto on_partition = find([&](const Pick& p) {
+    return p.line == 0 && document().partitions.label(p.face) != 0;
+  });
+  ASSERT_TRUE(on_partition);
+  const std::uint32_t partition =
+      document().partitions.label(window->view().pick(*on_partition)->face);
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, *on_partition);
+  EXPECT_EQ(window->elements().selected_partitions(), ElementsPresenter::Ids{partition});
+  EXPECT_TRUE(window->elements().selected_lines().empty());
+
+  // From the table: the first row by a click.
+  QTableView* table = nullptr;
+  for (ElementTable* candidate : window->findChildren<ElementTable*>())
+    if (candidate->selected().contains(partition) && candidate->isVisible())
+      table = candidate->findChild<QTableView*>();
+  if (!table)  // its tab may be behind another one
+    for (ElementTable* candidate : window->findChildren<ElementTable*>())
+      if (candidate->selected().contains(partition)) {
+        candidate->parentWidget()->raise();
+        table = candidate->findChild<QTableView*>();
+      }
+  ASSERT_NE(table, nullptr);
+  QTest::qWait(50);
+  QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                    table->visualRect(table->model()->index(0, 0)).center());
+  ASSERT_EQ(window->elements().selected_partitions().size(), 1u);
+}
+
+TEST_F(MainWindowTest, HiddenLinesAreNotPicked) {
+  open_sample();
+  run_both();
+  const auto on_line = find([&](const Pick& p) { return p.line != 0; });
+  ASSERT_TRUE(on_line);
+  QTest::keyClick(window.get(), Qt::Key_L);
+  const auto pick = window->view().pick(*on_line);
+  EXPECT_TRUE(!pick || pick->line == 0);
+  QTest::keyClick(window.get(), Qt::Key_L);
+  EXPECT_NE(window->view().pick(*on_line)->line, 0u);
+}
+
+TEST_F(MainWindowTest, UndoRedoAndTravel) {
+  open_sample();
+  const std::string opened = hash_of(document());
+  run_both();
+  const std::string done = hash_of(document());
+  const auto press = [&](const QKeySequence& keys, std::uint32_t head) {
+    QTest::keySequence(window.get(), keys);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return idle() && window->session().history().head() == head; }, patience));
+  };
+  press(QKeySequence::Undo, 2);
+  press(QKeySequence::Undo, 1);
+  EXPECT_EQ(hash_of(document()), opened);
+  press(QKeySequence::Redo, 2);
+  press(QKeySequence::Redo, 3);
+  EXPECT_EQ(hash_of(document()), done);
+  emit window->findChild<HistoryPanel*>()->travel(1);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return idle() && window->session().history().head() == 1; }, patience));
+  EXPECT_EQ(hash_of(document()), opened);
+  // The menu names what it would do.
+  bool named = false;
+  for (const QAction* action : window->findChildren<QAction*>())
+    named = named || action->text().startsWith("Redo: Find sharp lines");
+  EXPECT_TRUE(named);
+}
+
+TEST_F(MainWindowTest, PicturesHaveTheAskedSizeAndAreOpaque) {
+  open_sample();
+  run_both();
+  const QTemporaryDir folder;
+  PictureOptions options;
+  options.size = {800, 600};
+  const QString path = folder.filePath("picture.png");
+  QString error;
+  ASSERT_TRUE(window->save_picture(path, options, &error)) << error.toStdString();
+  const QImage image(path);
+  EXPECT_EQ(image.size(), QSize(800, 600));
+  EXPECT_EQ(image.pixelColor(0, 0), QColor(Qt::white));
+  for (int y = 0; y < image.height(); y += 37)
+    for (int x = 0; x < image.width(); x += 41) EXPECT_EQ(image.pixelColor(x, y).alpha(), 255);
+  EXPECT_FALSE(window->save_picture(folder.filePath("no/such/folder.png"), options, &error));
+  EXPECT_FALSE(error.isEmpty());
+}
+
+TEST_F(MainWindowTest, EveryActionHasATooltipAndShortcutsAreUnique) {
+  open_sample();
+  QMap<QString, QString> seen;
+  for (const QAction* action : window->findChildren<QAction*>()) {
+    if (action->text().isEmpty() || action->menu() || action->shortcut().isEmpty()) continue;
+    EXPECT_FALSE(action->toolTip().isEmpty()) << action->text().toStdString();
+    const QString keys = action->shortcut().toString();
+    EXPECT_FALSE(seen.contains(keys))
+        << keys.toStdString() << ": " << action->text().toStdString() << " and "
+        << seen.value(keys).toStdString();
+    seen[keys] = action->text();
+  }
+  EXPECT_GT(seen.size(), 15);
+}
+
+TEST(Session, OnlyTheLatestPreviewCounts) {
+  const MeshPtr mesh = testing::mesh_of(testing::random_terrain(350, 3));
+  const QTemporaryDir folder;
+  const QString path = folder.filePath("fine.ply");
+  ASSERT_TRUE(write_ply(path.toStdString(), *mesh, {}));
+  Session session;
+  session.open(path);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !session.busy(); }, patience));
+  int answers = 0;
+  QObject::connect(&session, &Session::changed, &session, [&] { ++answers; });
+  for (int k = 0; k < 50; ++k) session.preview({"find_sharp_lines", {{"angle", 20.0 + k}}});
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const auto& step = session.shown().document.find_sharp_lines;
+        return step && step->parameters["angle"] == 69.0;
+      },
+      patience));
+  EXPECT_LT(answers, 10) << "values that came too late are left out";
+  session.cancel_preview();
+  EXPECT_FALSE(session.shown().document.find_sharp_lines);
+  EXPECT_EQ(session.history().entries().size(), 1u);
+}
+
+}  // namespace
+}  // namespace arris::ui
