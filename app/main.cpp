@@ -127,5 +127,7 @@ int main(int argc, char** argv) {
     main_window.open(parser.positionalArguments().first());
   else if (parser.isSet(sample))
     main_window.open_sample();
+  else
+    main_window.offer_recovery();
   return QApplication::exec();
 }

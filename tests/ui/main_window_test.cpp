@@ -6,6 +6,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QDir>
+#include <QFile>
 #include <QImage>
 #include <QMenu>
 #include <QMessageBox>
@@ -35,6 +36,7 @@ class MainWindowTest : public ::testing::Test {
     QStandardPaths::setTestModeEnabled(true);
     QApplication::setOrganizationName("arris-test");
     QSettings().clear();
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
     window = std::make_unique<MainWindow>();
     window->resize(1200, 800);
     window->show();
@@ -47,6 +49,11 @@ class MainWindowTest : public ::testing::Test {
     ASSERT_TRUE(QTest::qWaitFor([&] { return !document().empty() && idle(); }, patience));
     QTest::qWait(50);
   }
+  void TearDown() override {
+    window->session().mark_saved();  // nobody is there to answer
+    window->close();
+  }
+
   const Document& document() const { return window->session().current().document; }
   const Document& shown() const { return window->session().shown().document; }
   bool idle() const { return !window->session().busy(); }
@@ -179,9 +186,8 @@ TEST_F(MainWindowTest, LinesAndPartitionsSelectBothWays) {
   EXPECT_EQ(window->elements().selected_lines(), ElementsPresenter::Ids{line});
 
   ASSERT_TRUE(window->elements().partitions_shown());
-  const auto on_partition = find([&](const Pick& p) {
-    return p.line == 0 && document().partitions.label(p.face) != 0;
-  });
+  const auto on_partition =
+      find([&](const Pick& p) { return p.line == 0 && document().partitions.label(p.face) != 0; });
   ASSERT_TRUE(on_partition);
   const std::uint32_t partition =
       document().partitions.label(window->view().pick(*on_partition)->face);
@@ -236,14 +242,39 @@ TEST_F(MainWindowTest, UndoRedoAndTravel) {
   press(QKeySequence::Redo, 3);
   EXPECT_EQ(hash_of(document()), done);
   emit window->findChild<HistoryPanel*>()->travel(1);
-  ASSERT_TRUE(QTest::qWaitFor(
-      [&] { return idle() && window->session().history().head() == 1; }, patience));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return idle() && window->session().history().head() == 1; }, patience));
   EXPECT_EQ(hash_of(document()), opened);
   // The menu names what it would do.
   bool named = false;
   for (const QAction* action : window->findChildren<QAction*>())
     named = named || action->text().startsWith("Redo: Find sharp lines");
   EXPECT_TRUE(named);
+}
+
+TEST_F(MainWindowTest, ACrashLosesNothing) {
+  open_sample();
+  run_both();
+  const std::string before = hash_of(document());
+  // What a crash leaves behind: the journal as it stands, and no owner.
+  const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+                    "/sessions");
+  const QStringList journals = folder.entryList({"*.jsonl"}, QDir::Files, QDir::Time);
+  ASSERT_FALSE(journals.isEmpty());
+  EXPECT_TRUE(Session::abandoned_journals().isEmpty()) << "this window still works on it";
+  const QString left = folder.filePath("00000000-000000000-1.jsonl");
+  QFile::remove(left);
+  ASSERT_TRUE(QFile::copy(folder.filePath(journals.first()), left));
+  EXPECT_EQ(Session::abandoned_journals(), QStringList{left});
+
+  Session other;
+  other.recover(left);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !other.busy(); }, patience));
+  EXPECT_EQ(hash_of(other.current().document), before);
+  EXPECT_EQ(other.history().entries().size(), 3u);
+  EXPECT_TRUE(Session::abandoned_journals().isEmpty());
+  other.close();
+  EXPECT_FALSE(QFile::exists(left));
 }
 
 TEST_F(MainWindowTest, PicturesHaveTheAskedSizeAndAreOpaque) {
@@ -271,9 +302,8 @@ TEST_F(MainWindowTest, EveryActionHasATooltipAndShortcutsAreUnique) {
     if (action->text().isEmpty() || action->menu() || action->shortcut().isEmpty()) continue;
     EXPECT_FALSE(action->toolTip().isEmpty()) << action->text().toStdString();
     const QString keys = action->shortcut().toString();
-    EXPECT_FALSE(seen.contains(keys))
-        << keys.toStdString() << ": " << action->text().toStdString() << " and "
-        << seen.value(keys).toStdString();
+    EXPECT_FALSE(seen.contains(keys)) << keys.toStdString() << ": " << action->text().toStdString()
+                                      << " and " << seen.value(keys).toStdString();
     seen[keys] = action->text();
   }
   EXPECT_GT(seen.size(), 15);

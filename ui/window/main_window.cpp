@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QCloseEvent>
+#include <QDateTime>
 #include <QDir>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -231,6 +232,9 @@ void MainWindow::make_actions() {
                  tr("Open the mould part that Arris makes itself")),
           &QAction::triggered, this, &MainWindow::open_sample);
   recent_menu_ = file->addMenu(tr("Open &recent"));
+  save_session_ = action(file, tr("&Save session…"), QKeySequence::Save,
+                         tr("Save the operations of this session; open them again to go on"));
+  connect(save_session_, &QAction::triggered, this, &MainWindow::choose_session);
   file->addSeparator();
   save_picture_ = action(file, tr("Save &picture…"), QKeySequence("Ctrl+P"),
                          tr("Save the view at a size in pixels, with its scalar bar"));
@@ -371,8 +375,8 @@ void MainWindow::make_actions() {
   connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
           &MainWindow::show_about);
 
-  for (QAction* a : {save_picture_, copy_picture_, export_, flip_, drop, report_, show_field_,
-                     show_partitions_, fit, zoom})
+  for (QAction* a : {save_session_, save_picture_, copy_picture_, export_, flip_, drop, report_,
+                     show_field_, show_partitions_, fit, zoom})
     part_actions_.push_back(a);
   for (QMenu* menu : findChildren<QMenu*>()) menu->setToolTipsVisible(true);
 
@@ -386,7 +390,69 @@ void MainWindow::make_actions() {
   bar->addActions({run_all_, fit, save_picture_});
 }
 
-void MainWindow::open(const QString& path) { session_->open(path); }
+void MainWindow::open(const QString& path) {
+  if (may_leave_session()) session_->open(path);
+}
+
+bool MainWindow::may_leave_session() {
+  if (!session_->has_unsaved_edits()) return true;
+  QMessageBox box(QMessageBox::Question, "Arris", tr("Save the edits of this session?"),
+                  QMessageBox::NoButton, this);
+  box.setInformativeText(
+      tr("A saved session opens again with its whole history. Discarded edits are lost."));
+  QPushButton* save = box.addButton(tr("Save session…"), QMessageBox::AcceptRole);
+  QPushButton* discard = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
+  box.addButton(QMessageBox::Cancel);
+  box.setDefaultButton(save);
+  box.exec();
+  if (box.clickedButton() == discard) return true;
+  if (box.clickedButton() != save) return false;
+  choose_session();
+  return !session_->has_unsaved_edits();
+}
+
+void MainWindow::choose_session() {
+  QSettings settings;
+  const QString name =
+      QFileInfo(QString::fromStdString(session_->current().document.scan_path)).completeBaseName() +
+      ".jsonl";
+  QString path = QFileDialog::getSaveFileName(
+      this, tr("Save session"), QDir(settings.value("folders/sessions").toString()).filePath(name),
+      tr("Arris session (*.jsonl)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += ".jsonl";
+  settings.setValue("folders/sessions", QFileInfo(path).absolutePath());
+  const Result<void> written =
+      write_file_whole(path.toStdString(), journal_text(session_->history()));
+  if (!written) {
+    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
+    return;
+  }
+  session_->mark_saved();
+  statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
+}
+
+void MainWindow::offer_recovery() {
+  for (const QString& journal : Session::abandoned_journals()) {
+    QMessageBox box(
+        QMessageBox::Question, "Arris",
+        tr("A session of %1 was not closed.")
+            .arg(QLocale::c().toString(QFileInfo(journal).lastModified(), "yyyy-MM-dd hh:mm")),
+        QMessageBox::NoButton, this);
+    box.setInformativeText(tr("It is complete up to its last edit. Go on with it?"));
+    QPushButton* go_on = box.addButton(tr("Go on"), QMessageBox::AcceptRole);
+    QPushButton* discard = box.addButton(tr("Discard it"), QMessageBox::DestructiveRole);
+    box.addButton(tr("Later"), QMessageBox::RejectRole);
+    box.setDefaultButton(go_on);
+    box.exec();
+    if (box.clickedButton() == discard) {
+      Session::discard_journal(journal);
+    } else if (box.clickedButton() == go_on) {
+      session_->recover(journal);
+      return;
+    }
+  }
+}
 
 void MainWindow::open_sample() {
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
@@ -414,9 +480,9 @@ void MainWindow::show_partitions(bool shown) {
 
 void MainWindow::choose_file() {
   QSettings settings;
-  const QString path =
-      QFileDialog::getOpenFileName(this, tr("Open scan"), settings.value("folders/open").toString(),
-                                   tr("Meshes (*.stl *.ply *.obj *.off);;All files (*)"));
+  const QString path = QFileDialog::getOpenFileName(
+      this, tr("Open scan"), settings.value("folders/open").toString(),
+      tr("Scans and sessions (*.stl *.ply *.obj *.off *.jsonl);;All files (*)"));
   if (path.isEmpty()) return;
   settings.setValue("folders/open", QFileInfo(path).absolutePath());
   open(path);
@@ -477,6 +543,7 @@ void MainWindow::choose_results_folder() {
         write_labelled_scan(path("scan_partitions.ply"), *document.scan, labels_on_scan(document));
   if (written)
     written = write_file_whole(path("operations.jsonl"), journal_text(session_->history()));
+  if (written) session_->mark_saved();
   if (written)
     statusBar()->showMessage(
         tr("lines.obj, boundaries.obj, scan_partitions.ply and operations.jsonl written to %1")
@@ -639,10 +706,15 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!may_leave_session()) {
+    event->ignore();
+    return;
+  }
   QSettings settings;
   settings.setValue("window/geometry", saveGeometry());
   settings.setValue("window/state", saveState());
   session_->cancel();
+  session_->close();
   event->accept();
 }
 

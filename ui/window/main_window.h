@@ -31,8 +31,11 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
+  /// Opens a scan or a session; asks first where edits would be lost.
   void open(const QString& path);
   void open_sample();
+  /// Offers to go on with sessions that a crash left behind. Called once after show().
+  void offer_recovery();
   void set_field(Field field);
   void show_partitions(bool shown);
   /// Saves the view; errors are shown to the user where `quiet` is not set. True: written.
@@ -56,6 +59,9 @@ class MainWindow : public QMainWindow {
   void choose_file();
   void choose_picture();
   void choose_results_folder();
+  void choose_session();
+  /// True where the open session may go: nothing unsaved, or the user said so.
+  bool may_leave_session();
   void show_load_report();
   void show_about();
   void remember_recent(const QString& path);
@@ -89,6 +95,7 @@ class MainWindow : public QMainWindow {
   QAction* save_picture_;
   QAction* copy_picture_;
   QAction* export_;
+  QAction* save_session_;
   QAction* undo_;
   QAction* redo_;
   QAction* run_lines_;

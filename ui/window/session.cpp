@@ -3,6 +3,15 @@
 #include <chrono>
 #include <utility>
 
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QStandardPaths>
+
+#include "core/document/journal.h"
+#include "core/mesh/write_ply.h"
+
 namespace arris::ui {
 
 namespace {
@@ -85,6 +94,109 @@ void Session::finish_work() {
 }
 
 void Session::open(const QString& path) {
+  if (path.endsWith(".jsonl", Qt::CaseInsensitive))
+    open_journal(path, false);
+  else
+    open_scan(path);
+}
+
+void Session::recover(const QString& journal) { open_journal(journal, true); }
+
+void Session::open_journal(const QString& path, bool go_on) {
+  if (busy_) return;
+  cancel_preview();
+  busy_ = true;
+  stop_ = std::stop_source();
+  emit busy_changed(true);
+  start([this, path, go_on, context = context_of_work()] {
+    auto replayed = std::make_shared<Result<Replay>>(replay(path.toStdString(), {}, context));
+    auto snapshot = std::make_shared<Snapshot>();
+    if (*replayed) *snapshot = snapshot_of((*replayed)->history.current());
+    QMetaObject::invokeMethod(this, [this, path, go_on, replayed, snapshot] {
+      if (*replayed) {
+        close();
+        history_ = std::move((*replayed)->history);
+        start_journal(go_on ? path : QString());
+        mark_saved();
+        if (go_on) saved_head_ = 0;
+        seconds_.clear();
+        show(std::move(*snapshot));
+        emit opened();
+        for (const std::string& warning : (*replayed)->warnings)
+          emit failed(QString::fromStdString(warning));
+      } else if (!replayed->error().cancelled) {
+        emit failed(QString::fromStdString(replayed->error().message));
+      }
+      finish_work();
+    });
+  });
+}
+
+namespace {
+
+QString journal_folder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/sessions";
+}
+
+QString lock_of(const QString& journal) { return journal + ".lock"; }
+
+}  // namespace
+
+void Session::start_journal(const QString& path) {
+  journal_path_ = path;
+  if (path.isEmpty()) {
+    QDir().mkpath(journal_folder());
+    const QString name = QDateTime::currentDateTimeUtc().toString("yyyyMMdd-hhmmsszzz") + "-" +
+                         QString::number(QCoreApplication::applicationPid());
+    journal_path_ = journal_folder() + "/" + name + ".jsonl";
+  }
+  journal_lock_ = std::make_unique<QLockFile>(lock_of(journal_path_));
+  journal_lock_->setStaleLockTime(0);
+  journal_lock_->tryLock(0);
+  const std::string file = journal_path_.toStdString();
+  // Rows of before, whole and without what a crash cut short.
+  Result<void> written = write_file_whole(file, journal_text(history_));
+  if (written) {
+    Result<std::shared_ptr<Journal>> journal = Journal::open(file);
+    if (journal)
+      history_.set_journal(std::move(*journal));
+    else
+      written = tl::unexpected<Error>(journal.error());
+  }
+  if (!written)
+    emit failed(tr("This session cannot be recovered after a crash: %1")
+                    .arg(QString::fromStdString(written.error().message)));
+}
+
+QStringList Session::abandoned_journals() {
+  QStringList found;
+  const QDir folder(journal_folder());
+  for (const QString& name :
+       folder.entryList({"*.jsonl"}, QDir::Files, QDir::Name | QDir::Reversed)) {
+    const QString path = folder.filePath(name);
+    QLockFile lock(lock_of(path));
+    lock.setStaleLockTime(0);
+    if (!lock.tryLock(0)) continue;  // another window works on it
+    lock.unlock();
+    found << path;
+  }
+  return found;
+}
+
+void Session::discard_journal(const QString& journal) { QFile::remove(journal); }
+
+bool Session::has_unsaved_edits() const {
+  return history_.entries().size() > 1 && history_.head() > 1 && history_.head() != saved_head_;
+}
+
+void Session::close() {
+  history_.set_journal(nullptr);
+  if (!journal_path_.isEmpty()) QFile::remove(journal_path_);
+  journal_path_.clear();
+  journal_lock_.reset();
+}
+
+void Session::open_scan(const QString& path) {
   if (busy_) return;
   cancel_preview();
   busy_ = true;
@@ -106,7 +218,10 @@ void Session::open(const QString& path) {
         const Result<void> committed =
             history.commit(std::move((*performed)->operation), std::move((*performed)->document));
         if (committed) {
+          close();
           history_ = std::move(history);
+          start_journal({});
+          saved_head_ = 0;
           seconds_ = {{"open", seconds}};
           show(std::move(*snapshot));
           emit opened();

@@ -7,9 +7,10 @@
 #include <stop_token>
 #include <vector>
 
-#include <QElapsedTimer>
+#include <QLockFile>
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QThreadPool>
 
 #include "core/document/history.h"
@@ -45,8 +46,19 @@ class Session : public QObject {
   nlohmann::json current_parameters(const std::string& step) const;
 
   bool busy() const { return busy_; }
-  /// Opens a file in a history of its own. The open part stays until the new one is there.
+  /// Opens a scan, or replays a session (*.jsonl), in a history of its own. The open part stays
+  /// until the new one is there.
   void open(const QString& path);
+  /// Goes on with the journal that a crash left behind (see abandoned_journals()).
+  void recover(const QString& journal);
+  /// Journals of sessions that ended without being closed, newest first.
+  static QStringList abandoned_journals();
+  static void discard_journal(const QString& journal);
+  /// True where there are edits that were not written to a session file or results folder.
+  bool has_unsaved_edits() const;
+  void mark_saved() { saved_head_ = history_.head(); }
+  /// Removes the journal: the session was closed on purpose.
+  void close();
   /// Runs operations one after the other, each a history entry; stops at the first that fails.
   void run(std::vector<Operation> operations);
   void undo();
@@ -78,10 +90,17 @@ class Session : public QObject {
   void finish_work();
   void run_next();
   void start_preview();
+  void open_scan(const QString& path);
+  void open_journal(const QString& path, bool go_on);
+  /// From here on every edit is on disk before its result is shown.
+  void start_journal(const QString& path);
   Context context_of_work();
   void show(Snapshot snapshot);
 
   History history_;
+  std::unique_ptr<QLockFile> journal_lock_;  // tells other windows that the journal is in use
+  QString journal_path_;
+  std::uint32_t saved_head_ = 0;
   Snapshot current_;
   std::shared_ptr<const Snapshot> previewed_;
   std::vector<std::pair<std::string, double>> seconds_;
