@@ -86,6 +86,8 @@ nlohmann::json summary_of(const History& history) {
   nlohmann::json thresholds = nlohmann::json::object();
   if (document.find_sharp_lines)
     thresholds["find_sharp_lines"] = document.find_sharp_lines->parameters;
+  if (document.smooth_curvature)
+    thresholds["smooth_curvature"] = document.smooth_curvature->parameters;
   if (document.find_partitions)
     thresholds["find_partitions"] = document.find_partitions->parameters;
   summary["thresholds"] = thresholds;

@@ -179,17 +179,20 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
   if (context.cancelled()) return cancelled();
   context.report(0.7, "curvatures");
 
-  // A principal curvature counts as zero where its radius exceeds the part, or is small beside what
-  // is usual on this part.
-  std::vector<double> sizes;
-  sizes.reserve(n);
-  for (const double value : c.kabs)
-    if (!std::isnan(value)) sizes.push_back(std::sqrt(value));
-  if (!sizes.empty()) {
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const double diagonal = mesh.diagonal();
-    c.shape_tolerance = std::max(0.25 * *middle, diagonal > 0.0 ? 1.0 / diagonal : 0.0);
+  // A principal curvature counts as zero where its radius exceeds the part, or where noise alone
+  // could give it: on a smooth surface H hardly differs between neighbours, noise differs wholly.
+  std::vector<double> differences;
+  differences.reserve(mesh.edge_count());
+  for (const EdgeVertices& edge : mesh.edges()) {
+    const double difference = std::abs(c.h[edge[0]] - c.h[edge[1]]);
+    if (!std::isnan(difference)) differences.push_back(difference);
+  }
+  if (mesh.diagonal() > 0.0) c.shape_tolerance = 1.0 / mesh.diagonal();
+  if (!differences.empty()) {
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    const double h_noise = 1.4826 * *middle / std::numbers::sqrt2;   // standard deviation of H
+    c.shape_tolerance = std::max(c.shape_tolerance, 4.0 * h_noise);  // k is H and a root of H^2 - K
   }
   c.shape.assign(n, Shape::undefined);
   parallel_for(n, [&](std::size_t i) { c.shape[i] = shape_of(c.k[i], c.h[i], c.shape_tolerance); });
@@ -221,6 +224,18 @@ double edge_mean_curvature(const Mesh& mesh, const Curvatures& curvatures, EdgeI
 double cylinder_radius(double kabs) { return 1.0 / std::sqrt(kabs); }
 
 double ikabs_of_straight_edge(double angle) { return 9.0 * angle * angle / (pi * pi); }
+
+Point mean_normal(const Mesh& mesh) {
+  Point sum = Point::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles()) {
+    const Point n =
+        (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0]));
+    sum += n;
+    area += n.norm();
+  }
+  return area > 0.0 ? Point(sum / area) : sum;
+}
 
 double corner_angle(const Point& p, const Point& a, const Point& b) {
   const Point u = a - p, w = b - p;

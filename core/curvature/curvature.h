@@ -83,6 +83,10 @@ double cylinder_radius(double kabs);
 /// angle is `angle` radians, 9 angle^2 / pi^2.
 double ikabs_of_straight_edge(double angle);
 
+/// Mean of the face normals, weighted by area: the side an open scan was seen from. Its length runs
+/// from 0 (a closed surface) to 1 (a plane).
+Point mean_normal(const Mesh& mesh);
+
 /// Interior angle of the triangle p, a, b at p, in radians, by atan2 (exact to rounding at any
 /// angle; 0 for a point).
 double corner_angle(const Point& p, const Point& a, const Point& b);

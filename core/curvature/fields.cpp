@@ -41,9 +41,9 @@ std::optional<Field> find_field(std::string_view name) {
   return std::nullopt;
 }
 
-const std::array<std::string_view, 7>& shape_names() {
-  static constexpr std::array<std::string_view, 7> names{
-      "undefined", "flat", "elliptic convex", "elliptic concave", "ridge", "valley", "saddle"};
+const std::array<std::string_view, 6>& shape_names() {
+  static constexpr std::array<std::string_view, 6> names{
+      "flat", "elliptic convex", "elliptic concave", "ridge", "valley", "saddle"};
   return names;
 }
 
@@ -77,7 +77,7 @@ std::vector<double> field_values(const Curvatures& c, Field field) {
   std::vector<double> classes(c.shape.size());
   std::transform(c.shape.begin(), c.shape.end(), classes.begin(), [](Shape s) {
     return s == Shape::undefined ? std::numeric_limits<double>::quiet_NaN()
-                                 : static_cast<double>(s);
+                                 : static_cast<double>(s) - 1.0;
   });
   return classes;
 }

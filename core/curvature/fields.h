@@ -30,8 +30,8 @@ const FieldInfo& info_of(Field field);
 /// By name, upper or lower case.
 std::optional<Field> find_field(std::string_view name);
 
-/// Names of the classes of Shape, in its order.
-const std::array<std::string_view, 7>& shape_names();
+/// Names of the classes of the field Shape: class k is Shape k + 1 (undefined is NaN there).
+const std::array<std::string_view, 6>& shape_names();
 
 /// The values of a field: per vertex, or per edge where on_edges. IHe is given in degrees; shapes
 /// as class numbers, NaN where undefined. IH and IK are those of the chosen pairing.

@@ -17,6 +17,14 @@ void add_real(Hasher& hasher, double value) { hasher.bytes(&value, sizeof value)
 
 }  // namespace
 
+const std::optional<Step>& Document::step(std::string_view name) const {
+  static const std::optional<Step> none;
+  return name == "find_sharp_lines"   ? find_sharp_lines
+         : name == "smooth_curvature" ? smooth_curvature
+         : name == "find_partitions"  ? find_partitions
+                                      : none;
+}
+
 std::string hash_of(const Document& document) {
   Hasher hasher;
   hasher.number(document.scan != nullptr);
@@ -53,6 +61,7 @@ std::string hash_of(const Document& document) {
     add_real(hasher, partition->interval.max);
   }
   add(hasher, document.find_sharp_lines);
+  add(hasher, document.smooth_curvature);
   add(hasher, document.find_partitions);
   hasher.number(document.next_id);
   return hasher.hex();
@@ -78,6 +87,7 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
   if (document.mesh && document.mesh != base.mesh) bytes += document.mesh->bytes();
   if (document.curvatures && document.curvatures != base.curvatures)
     bytes += document.curvatures->bytes();
+  if (document.smoothed && document.smoothed != base.smoothed) bytes += document.smoothed->bytes();
   if (document.scan_faces && document.scan_faces != base.scan_faces)
     bytes += document.scan_faces->size() * sizeof(FaceId);
   bytes += document.lines.edges.bytes_beyond(base.lines.edges);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -38,11 +39,17 @@ struct Document {
 
   SharpLines lines;
   Partitions partitions;
+  CurvaturesPtr smoothed;    ///< Output of smooth_curvature; null: not run on this mesh.
   std::optional<Step> find_sharp_lines;
+  std::optional<Step> smooth_curvature;
   std::optional<Step> find_partitions;
   std::uint32_t next_id = 1;  ///< Of the next line or partition; never goes back.
 
   bool empty() const { return !scan; }
+  /// The step of this name as last run; absent for one never run, and for names that are no step.
+  const std::optional<Step>& step(std::string_view name) const;
+  /// What is shown and what partitions are found by: smoothed where that was run.
+  const CurvaturesPtr& shown_curvatures() const { return smoothed ? smoothed : curvatures; }
 };
 
 /// A resolved operation and the snapshot it led to.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/mesh/mesh.h"
@@ -32,7 +33,7 @@ inline double squared_distance_to_triangle(const Point& p, const Point& a, const
 /// A triangle made ready for many distance queries.
 struct TriangleQuery {
   Point a, b, c;
-  Point normal;        ///< Unit.
+  Point normal;      ///< Unit.
   Point to_b, to_c;  ///< Dual vectors: their products with p - a are the coordinates of b and c.
 
   /// `unit_normal`: that of a, b, c, which is not degenerate.
@@ -57,9 +58,16 @@ struct TriangleQuery {
     return u >= 0.0 && v >= 0.0 && u + v <= 1.0;
   }
 
-  double squared_distance(const Point& p) const {
-    return squared_distance_to_triangle(p, a, b, c);
+  /// True where the foot of p lies in the triangle, but farther.
+  bool is_far_over(const Point& p, double radius2) const {
+    const Point d = p - a;
+    const double height = d.dot(normal);
+    if (height * height <= radius2) return false;
+    const double u = d.dot(to_b), v = d.dot(to_c);
+    return u >= 0.0 && v >= 0.0 && u + v <= 1.0;
   }
+
+  double squared_distance(const Point& p) const { return squared_distance_to_triangle(p, a, b, c); }
 };
 
 /// Unit normal of a triangle, zero where it has none. Bit for bit the same whichever corner comes
@@ -77,13 +85,20 @@ inline double angle_between(const Point& m, const Point& n) {
   if (z > 0.25) return 2.0 * std::atan2((m - n).norm(), (m + n).norm());
   // asin(x) for x <= 1/2 by the rational function of Cephes (Moshier): most angles are small, and
   // this is the inner loop of every phase.
-  const double numerator =
-      ((((4.253011369004428248960e-3 * z - 6.019598008014123785661e-1) * z +
-         5.444622390564711410273e0) * z - 1.626247967210700244449e1) * z +
-       1.956261983317594739197e1) * z - 8.198089802484824371615e0;
+  const double numerator = ((((4.253011369004428248960e-3 * z - 6.019598008014123785661e-1) * z +
+                              5.444622390564711410273e0) *
+                                 z -
+                             1.626247967210700244449e1) *
+                                z +
+                            1.956261983317594739197e1) *
+                               z -
+                           8.198089802484824371615e0;
   const double denominator =
       ((((z - 1.474091372988853791896e1) * z + 7.049610280856842141659e1) * z -
-        1.471791292232726029859e2) * z + 1.395105614657485689735e2) * z -
+        1.471791292232726029859e2) *
+           z +
+       1.395105614657485689735e2) *
+          z -
       4.918853881490881290097e1;
   const double x = std::sqrt(z);
   return 2.0 * (x + x * z * numerator / denominator);

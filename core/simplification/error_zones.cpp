@@ -10,12 +10,10 @@
 namespace arris {
 
 ErrorZones ErrorZones::start(const Mesh& mesh, double radius) {
-  return {{static_cast<float>(radius)}, std::vector<std::uint32_t>(mesh.face_count() + 1, 0), {}, {},
-          {0},
-          {}};
+  return {{radius}, std::vector<std::uint32_t>(mesh.face_count() + 1, 0), {}, {}, {0}, {}};
 }
 
-ErrorZones::ErrorZones(std::vector<float> radii, std::vector<std::uint32_t> face_starts,
+ErrorZones::ErrorZones(std::vector<double> radii, std::vector<std::uint32_t> face_starts,
                        std::vector<VertexId> face_zones, std::vector<EdgeId> border_edges,
                        std::vector<std::uint32_t> border_starts, std::vector<VertexId> border_zones)
     : radii_(std::move(radii)),
@@ -47,8 +45,9 @@ Result<void> ErrorZones::check(const Mesh& mesh) const {
 }
 
 std::size_t ErrorZones::bytes() const {
-  return 4 * (radii_.capacity() + face_starts_.capacity() + face_zones_.capacity() +
-              border_edges_.capacity() + border_starts_.capacity() + border_zones_.capacity());
+  return 8 * radii_.capacity() +
+         4 * (face_starts_.capacity() + face_zones_.capacity() + border_edges_.capacity() +
+              border_starts_.capacity() + border_zones_.capacity());
 }
 
 std::vector<double> zone_distances(const Mesh& mesh, const ErrorZones& zones) {

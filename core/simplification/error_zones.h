@@ -24,14 +24,14 @@ class ErrorZones {
 
   /// The zones each face answers for, and each border edge, for `mesh`. `radii`: one value for all
   /// or one per vertex. `border_edges`: ascending, only those that answer for a vertex.
-  ErrorZones(std::vector<float> radii, std::vector<std::uint32_t> face_starts,
+  ErrorZones(std::vector<double> radii, std::vector<std::uint32_t> face_starts,
              std::vector<VertexId> face_zones, std::vector<EdgeId> border_edges,
              std::vector<std::uint32_t> border_starts, std::vector<VertexId> border_zones);
 
   /// Radius of the zone of one initial vertex, mm.
   double radius(VertexId v) const { return radii_.size() == 1 ? radii_[0] : radii_[v]; }
   /// One value for all, or one per initial vertex.
-  const std::vector<float>& radii() const { return radii_; }
+  const std::vector<double>& radii() const { return radii_; }
   double largest_radius() const;
 
   std::span<const VertexId> of_face(FaceId f) const {
@@ -50,7 +50,7 @@ class ErrorZones {
   bool operator==(const ErrorZones&) const = default;
 
  private:
-  std::vector<float> radii_;
+  std::vector<double> radii_;
   std::vector<std::uint32_t> face_starts_;
   std::vector<VertexId> face_zones_;
   std::vector<EdgeId> border_edges_;

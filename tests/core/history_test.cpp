@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <csignal>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -483,6 +486,29 @@ TEST_F(JournalFile, ThatCannotBeWrittenStopsTheEdit) {
   EXPECT_EQ(history.head(), 1u);
   EXPECT_FALSE(history.undo()) << "undo is a row, too";
   EXPECT_EQ(history.head(), 1u);
+}
+
+TEST_F(JournalFile, RowThatWasCutOffByAFullDiskDoesNotSpoilThoseAfterIt) {
+  const std::string journal = folder.file("full.jsonl");
+  History history;
+  history.set_journal(value_of(Journal::open(journal)));
+  run_ok(history, open());
+  // The file may grow by 40 bytes only: less than a row.
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  rlimit small = limit;
+  small.rlim_cur = folder.read("full.jsonl").size() + 40;
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Result<void> failed = history.run(lines(30.0));
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(history.head(), 1u);
+  run_ok(history, lines(40.0));
+  const Result<Replay> again = replay(journal);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(hash_of(again->history.current()), hash_of(history.current()));
 }
 
 TEST_F(JournalFile, CancelledReplayIsAnErrorThatSaysSo) {

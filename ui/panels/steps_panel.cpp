@@ -435,6 +435,11 @@ class CardFrame : public QWidget {
  protected:
   void paintEvent(QPaintEvent*) override;
   void resizeEvent(QResizeEvent*) override { arrange_form(); }
+  bool event(QEvent* event) override {
+    // Editors know their size only once the style has polished them.
+    if (event->type() == QEvent::LayoutRequest) arrange_form();
+    return QWidget::event(event);
+  }
 
  private:
   bool available() const { return card_.state != StepState::unavailable; }

@@ -285,6 +285,14 @@ void MeshView::fit() {
   update();
 }
 
+void MeshView::look_against(const Point& towards_viewer) {
+  const Point direction = towards_viewer.normalized();
+  constexpr double steep = 0.95;  // nearly from above or below: y is up then
+  impl_->camera.look(
+      direction, std::abs(direction.z()) > steep ? Point(Point::UnitY()) : Point(Point::UnitZ()));
+  fit();
+}
+
 void MeshView::look_from(StandardView view) {
   const Point up = Point::UnitZ();
   switch (view) {

@@ -91,6 +91,8 @@ class MeshView : public QOpenGLWidget {
 
   void fit();  ///< The whole part in the view; keeps the direction.
   enum class StandardView { front, back, left, right, top, bottom, isometric };
+  /// Looks against this direction, upright as far as it goes; fits the part.
+  void look_against(const Point& towards_viewer);
   void look_from(StandardView view);  ///< z is up; fits the part.
   /// Moves the camera (keeps direction) so that these vertices fill most of the view.
   void zoom_to(const std::vector<VertexId>& vertices);

@@ -37,18 +37,6 @@ double distance_to_segment(const Eigen::Vector2d& at, const Eigen::Vector2d& a,
   return (at - a - share * ab).norm();
 }
 
-bool faces_viewer(const Mesh& mesh, VertexId from, VertexId to, const Point& towards) {
-  const auto edge = mesh.find_edge(from, to);
-  if (!edge) return true;
-  for (const FaceId face : mesh.edge_faces(*edge)) {
-    if (face == no_id) continue;
-    const Triangle& t = mesh.triangle(face);
-    const Point& a = mesh.point(t[0]);
-    if ((mesh.point(t[1]) - a).cross(mesh.point(t[2]) - a).dot(towards) > 0.0) return true;
-  }
-  return false;
-}
-
 struct Candidate {
   double distance;
   std::size_t line, segment;
@@ -88,9 +76,8 @@ std::optional<std::pair<std::uint32_t, Point>> line_at(const RayTree& tree,
     // The same lift as where it is drawn, so that what is seen is what is picked.
     const double half_width =
         static_cast<double>(line_strokes()[static_cast<std::size_t>(line.type)].half_width);
-    const double lift = faces_viewer(mesh, from, to, towards)
-                            ? front_lift * (half_width + static_cast<double>(line_rim))
-                            : back_lift;
+    const double lift =
+        line_lift(mesh, from, to, towards, half_width + static_cast<double>(line_rim));
     const double reach = 2.0 * mesh.diagonal();
     if (!tree.first(point + towards * (lift * unit), towards, reach)) {
       return std::pair{line.id, point};

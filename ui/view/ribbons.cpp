@@ -34,8 +34,8 @@ constexpr const char* vertex_code = R"(
 in vec4 vertexMC;
 in vec3 otherMC;
 in vec4 cornerMC;   // corner, arc length here, arc length at the other end, stroke
-in vec3 firstMC;    // normals of the faces on both sides
-in vec3 secondMC;
+in vec3 leftMC;     // see side_directions()
+in vec3 rightMC;
 uniform mat4 MCDCMatrix;
 //VTK::CustomUniforms::Dec
 out vec2 place;            // pixels along and across, from the first end
@@ -43,6 +43,13 @@ flat out float len;        // pixels
 flat out vec2 arc;         // arc lengths of the first and the second end
 flat out vec4 shape;       // half width with the layer's, dash, period; pixel ratio
 flat out vec4 paint;
+// How steeply a side rises towards the viewer; -1 where the side faces away.
+float rise(vec3 side, vec3 normal)
+{
+  if (dot(normal, towardsViewer) <= 0.0) return -1.0;
+  float along = dot(side, towardsViewer);
+  return clamp(along / sqrt(max(1.0 - along * along, 0.01)), 0.0, mostRise);
+}
 void main()
 {
   bool second = cornerMC.x > 1.5;
@@ -64,10 +71,15 @@ void main()
   arc = second ? cornerMC.zy : cornerMC.yz;
   shape = vec4(radius, stroke.yz, pixelRatio);
   paint = layerPaint.a > 0.0 ? layerPaint : strokePaints[int(cornerMC.w + 0.5)];
-  bool front = max(dot(firstMC, towardsViewer), dot(secondMC, towardsViewer)) > 0.0;
-  float lift = front ? frontLift * (stroke.x + widest) : backLift;
+  vec3 edge = second ? end - otherMC : otherMC - end;
+  float steep = max(rise(leftMC, cross(edge, leftMC)), rise(rightMC, cross(rightMC, edge)));
+  float lift = steep < 0.0 ? backLift
+                           : min(stroke.x + widest, mostLifted) * (leastRise + steep);
   gl_Position = here;
   gl_Position.xy += shift / half_size;
+  // The round end runs on in the direction of the line, also in depth.
+  float slope = (here.z - there.z) / max(len, 0.01);
+  gl_Position.z += clamp(slope, -mostRise * depthPerPixel, mostRise * depthPerPixel) * rim;
   gl_Position.z -= lift * pixelRatio * depthPerPixel + extraLift;
 }
 )";
@@ -108,33 +120,11 @@ vtkSmartPointer<vtkFloatArray> floats(const char* name, int components, std::siz
   return array;
 }
 
-Eigen::Vector3f face_normal(const Mesh& mesh, FaceId face) {
-  const Triangle& t = mesh.triangle(face);
-  const Point& a = mesh.point(t[0]);
-  return (mesh.point(t[1]) - a).cross(mesh.point(t[2]) - a).normalized().cast<float>();
-}
-
-/// Normals of the faces beside the segment; of the faces about its ends where it is no edge.
-std::array<Eigen::Vector3f, 2> side_normals(const Mesh& mesh, VertexId from, VertexId to) {
-  std::array<Eigen::Vector3f, 2> result{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
-  if (const auto edge = mesh.find_edge(from, to)) {
-    const auto faces = mesh.edge_faces(*edge);
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (faces[k] != no_id) result[k] = face_normal(mesh, faces[k]);
-    }
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (faces[k] == no_id) result[k] = result[1 - k];
-    }
-    return result;
-  }
-  const std::array<VertexId, 2> ends{from, to};
-  for (std::size_t k = 0; k < 2; ++k) {
-    mesh.for_ring(ends[k], [&](HalfEdgeId h) {
-      if (mesh.face(h) != no_id) result[k] += face_normal(mesh, mesh.face(h));
-    });
-  }
-  return result;
-}
+// Of the lift of lines; the halves of lines wider than most_lifted may sink into a rising surface.
+constexpr double back_lift = 0.6;
+constexpr double least_rise = 0.4;
+constexpr double most_rise = 2.0;
+constexpr double most_lifted = 4.0;
 
 void uniform4(vtkUniforms* uniforms, const char* name, const QColor& colour) {
   const std::array<float, 4> value =
@@ -156,6 +146,47 @@ void write_no_depth(vtkObject*, unsigned long, void* renderer, void*) {
 
 }  // namespace
 
+std::array<Point, 2> side_directions(const Mesh& mesh, VertexId from, VertexId to) {
+  std::array<Point, 2> result{Point::Zero(), Point::Zero()};
+  const Point along = (mesh.point(to) - mesh.point(from)).normalized();
+  if (const auto edge = mesh.find_edge(from, to)) {
+    const HalfEdgeId left = mesh.from(2 * *edge) == from ? 2 * *edge : 2 * *edge + 1;
+    const std::array<HalfEdgeId, 2> halves{left, Mesh::opposite(left)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (mesh.face(halves[k]) == no_id) continue;
+      const Point inwards = mesh.point(mesh.to(mesh.next(halves[k]))) - mesh.point(from);
+      result[k] = (inwards - inwards.dot(along) * along).normalized();
+    }
+    return result;
+  }
+  Point normal = Point::Zero();
+  for (const VertexId end : {from, to}) {
+    mesh.for_ring(end, [&](HalfEdgeId h) {
+      if (mesh.face(h) == no_id) return;
+      const Triangle& t = mesh.triangle(mesh.face(h));
+      const Point& a = mesh.point(t[0]);
+      normal += (mesh.point(t[1]) - a).cross(mesh.point(t[2]) - a);
+    });
+  }
+  result[0] = normal.cross(along).normalized();
+  result[1] = -result[0];
+  return result;
+}
+
+double line_lift(const Mesh& mesh, VertexId from, VertexId to, const Point& towards_viewer,
+                 double half_width) {
+  const Point edge = mesh.point(to) - mesh.point(from);
+  const auto sides = side_directions(mesh, from, to);
+  const auto rise = [&](const Point& side, const Point& normal) {
+    if (normal.dot(towards_viewer) <= 0.0) return -1.0;
+    const double along = side.dot(towards_viewer);
+    return std::clamp(along / std::sqrt(std::max(1.0 - along * along, 0.01)), 0.0, most_rise);
+  };
+  const double steep =
+      std::max(rise(sides[0], edge.cross(sides[0])), rise(sides[1], sides[1].cross(edge)));
+  return steep < 0.0 ? back_lift : std::min(half_width, most_lifted) * (least_rise + steep);
+}
+
 void keep_coordinates(vtkPolyDataMapper* mapper) {
   if (auto* gl_mapper = vtkOpenGLPolyDataMapper::SafeDownCast(mapper)) {
     gl_mapper->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
@@ -174,7 +205,7 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
     mapper->ScalarVisibilityOff();
     keep_coordinates(mapper);
     mapper->SetResolveCoincidentTopologyToOff();
-    for (const char* name : {"otherMC", "cornerMC", "firstMC", "secondMC"}) {
+    for (const char* name : {"otherMC", "cornerMC", "leftMC", "rightMC"}) {
       mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS);
     }
     vtkNew<vtkCallbackCommand> observer;
@@ -207,8 +238,10 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
     uniforms->SetUniformf("grow", layers_[k].grow);
     uniforms->SetUniformf("widest", widest);
     uniform4(uniforms, "layerPaint", layers_[k].colour);
-    uniforms->SetUniformf("frontLift", static_cast<float>(front_lift));
     uniforms->SetUniformf("backLift", static_cast<float>(back_lift));
+    uniforms->SetUniformf("leastRise", static_cast<float>(least_rise));
+    uniforms->SetUniformf("mostRise", static_cast<float>(most_rise));
+    uniforms->SetUniformf("mostLifted", static_cast<float>(most_lifted));
     renderer->AddActor(actor);
     actors_.push_back(actor);
   }
@@ -223,8 +256,8 @@ void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector
   const auto points = floats("points", 3, 4 * segments);
   const auto other = floats("otherMC", 3, 4 * segments);
   const auto corner = floats("cornerMC", 4, 4 * segments);
-  const auto first = floats("firstMC", 3, 4 * segments);
-  const auto second = floats("secondMC", 3, 4 * segments);
+  const auto left = floats("leftMC", 3, 4 * segments);
+  const auto right = floats("rightMC", 3, 4 * segments);
   vtkNew<vtkTypeInt32Array> offsets;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(2 * segments + 1));
   vtkNew<vtkTypeInt32Array> corners;
@@ -240,7 +273,9 @@ void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector
       const Point a = mesh.point(ends[0]) - origin;
       const Point b = mesh.point(ends[1]) - origin;
       const double next = arc + (b - a).norm();
-      const auto normals = side_normals(mesh, ends[0], ends[1]);
+      const auto sides = side_directions(mesh, ends[0], ends[1]);
+      const Eigen::Vector3f left_side = sides[0].cast<float>();
+      const Eigen::Vector3f right_side = sides[1].cast<float>();
       for (std::size_t k = 0; k < 4; ++k) {
         const auto at = static_cast<vtkIdType>(4 * segment + k);
         const bool at_second = k > 1;
@@ -251,8 +286,8 @@ void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector
         other->SetTypedTuple(at, there.data());
         corner->SetTuple4(at, static_cast<double>(k), at_second ? next : arc,
                           at_second ? arc : next, line.stroke);
-        first->SetTypedTuple(at, normals[0].data());
-        second->SetTypedTuple(at, normals[1].data());
+        left->SetTypedTuple(at, left_side.data());
+        right->SetTypedTuple(at, right_side.data());
       }
       constexpr std::array<int, 6> quad{0, 1, 2, 2, 1, 3};
       for (std::size_t k = 0; k < quad.size(); ++k) {
@@ -269,7 +304,7 @@ void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector
   data_->Initialize();
   data_->SetPoints(shell);
   data_->SetPolys(cells);
-  for (const auto& array : {other, corner, first, second}) data_->GetPointData()->AddArray(array);
+  for (const auto& array : {other, corner, left, right}) data_->GetPointData()->AddArray(array);
   empty_ = segments == 0;
   set_visible(visible_);
 }

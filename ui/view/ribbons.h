@@ -41,11 +41,16 @@ struct RibbonFrame {
   Point towards_viewer = Point::UnitZ();
 };
 
-/// How far lines are drawn in front of the surface they lie on: in half-widths (of the widest
-/// layer) where the surface faces the viewer, so that a surface that rises beside the line does not
-/// cover it; in pixels where it faces away, so that no line shows through a thin wall.
-inline constexpr double front_lift = 2.5;
-inline constexpr double back_lift = 0.6;
+/// Unit vectors in the faces left and right of the segment, at right angles to it and away from it;
+/// zero where there is no face. Where it is no edge of the mesh: in the mean plane about its ends.
+std::array<Point, 2> side_directions(const Mesh& mesh, VertexId from, VertexId to);
+
+/// How far a line is drawn in front of the surface it lies on, in pixels: as much as the surface
+/// beside it rises towards the viewer within `half_width` pixels, and a little more. Hardly
+/// anything where the surface faces away, so that no line shows through a thin wall. The shader in
+/// ribbons.cpp does the same.
+double line_lift(const Mesh& mesh, VertexId from, VertexId to, const Point& towards_viewer,
+                 double half_width);
 
 /// Hands coordinates to the shaders as they are: VTK may scale them otherwise.
 void keep_coordinates(vtkPolyDataMapper* mapper);

@@ -13,11 +13,11 @@ QString text(std::string_view view) {
   return QString::fromUtf8(view.data(), static_cast<qsizetype>(view.size()));
 }
 
-/// Colours of the classes of Shape, in its order (figures 4 and 8).
+/// Colours of the classes of Shape, by shape_names() (figures 4 and 8).
 const std::vector<QColor>& shape_colours() {
-  static const std::vector<QColor> colours{
-      QColor(150, 150, 150), QColor(226, 226, 220), QColor(214, 96, 77),  QColor(67, 120, 190),
-      QColor(244, 180, 120), QColor(146, 197, 222), QColor(120, 180, 110)};
+  static const std::vector<QColor> colours{QColor(226, 226, 220), QColor(214, 96, 77),
+                                           QColor(67, 120, 190),  QColor(244, 180, 120),
+                                           QColor(146, 197, 222), QColor(120, 180, 110)};
   return colours;
 }
 
@@ -45,9 +45,10 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
 }
 
 void FieldPresenter::show(const Document& document) {
-  if (document.curvatures == curvatures_ && document.mesh == mesh_) return;
+  const CurvaturesPtr& curvatures = document.shown_curvatures();
+  if (curvatures == curvatures_ && document.mesh == mesh_) return;
   mesh_ = document.mesh;
-  curvatures_ = document.curvatures;
+  curvatures_ = curvatures;
   load();
   refresh();
 }
@@ -117,10 +118,12 @@ void FieldPresenter::refresh() {
   histogram.title = shown.title;
   constexpr std::size_t count = 160;
   double low = distribution_.quantile(0.0005), high = distribution_.quantile(0.9995);
-  if (info.is_class) {
-    low = -0.5;
-    high = static_cast<double>(shape_names().size()) - 0.5;
-  } else if (!info.is_signed) {
+  if (info.is_class) {  // nothing to set a threshold on
+    histogram_->set_histogram(histogram, s.scale);
+    emit changed();
+    return;
+  }
+  if (!info.is_signed) {
     histogram.logarithmic = true;
     low = std::max(distribution_.quantile(0.002), high * 1e-6);
   } else if (info.on_edges) {
@@ -132,8 +135,7 @@ void FieldPresenter::refresh() {
     low -= 0.5;
     high = low + 1.0;
   }
-  const Distribution::Bins bins = distribution_.bins(
-      low, high, info.is_class ? shape_names().size() : count, histogram.logarithmic);
+  const Distribution::Bins bins = distribution_.bins(low, high, count, histogram.logarithmic);
   histogram.edges = bins.edges;
   histogram.weights = bins.shares;
   histogram_->set_histogram(histogram, s.scale);

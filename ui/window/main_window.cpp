@@ -110,7 +110,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     const Document& document = session_->current().document;
     const QString path = QString::fromStdString(document.scan_path);
     setWindowTitle(QFileInfo(path).fileName() + " – Arris");
-    view_->fit();
+    // An open scan is shown from the side it was scanned from, a closed part from a corner.
+    const Point side = mean_normal(*document.mesh);
+    constexpr double open_scan = 0.15;
+    if (side.norm() > open_scan)
+      view_->look_against(side);
+    else
+      view_->look_from(MeshView::StandardView::isometric);
     show_partitions(false);
     remember_recent(path);
     if (!document.scan->report.clean())
@@ -668,7 +674,7 @@ void MainWindow::show_hover(const std::optional<Pick>& pick) {
     hover_label_->setText({});
     return;
   }
-  const Curvatures& c = *document.curvatures;
+  const Curvatures& c = *document.shown_curvatures();
   const VertexId v = pick->vertex;
   QString text = tr("vertex %1   K %2   H %3   Kabs %4")
                      .arg(v)

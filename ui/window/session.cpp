@@ -47,15 +47,13 @@ double Session::seconds_of(const std::string& operation) const {
 
 nlohmann::json Session::parameters(const std::string& step) const {
   const Document& document = shown().document;
-  const std::optional<Step>& run =
-      step == "find_sharp_lines" ? document.find_sharp_lines : document.find_partitions;
+  const std::optional<Step>& run = document.step(step);
   return run ? run->parameters : current_parameters(step);
 }
 
 nlohmann::json Session::current_parameters(const std::string& step) const {
   const Document& document = current_.document;
-  const std::optional<Step>& run =
-      step == "find_sharp_lines" ? document.find_sharp_lines : document.find_partitions;
+  const std::optional<Step>& run = document.step(step);
   if (run) return run->parameters;
   if (document.empty()) return nlohmann::json::object();
   const auto known = defaults_.find(step);

@@ -21,6 +21,9 @@ QString counted(std::size_t count, const QString& one, const QString& many) {
   return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + (count == 1 ? one : many);
 }
 
+/// The steps that can be run, in the order of figure 2.
+constexpr const char* chain[] = {"find_sharp_lines", "smooth_curvature", "find_partitions"};
+
 StepCard later(const QString& name, const QString& title, const QString& tooltip) {
   StepCard card;
   card.name = name;
@@ -98,22 +101,23 @@ void StepsPresenter::run(const QString& step) {
 bool StepsPresenter::anything_out_of_date() const {
   const Document& document = session_->current().document;
   return !document.empty() &&
-         (!document.find_sharp_lines || document.find_sharp_lines->out_of_date ||
-          !document.find_partitions || document.find_partitions->out_of_date);
+         std::any_of(std::begin(chain), std::end(chain), [&](const char* name) {
+           const std::optional<Step>& step = document.step(name);
+           return !step || step->out_of_date;
+         });
 }
 
 void StepsPresenter::run_out_of_date() {
   const Document& document = session_->current().document;
   if (document.empty()) return;
   std::vector<Operation> operations;
-  const bool lines = !document.find_sharp_lines || document.find_sharp_lines->out_of_date;
-  if (lines)
-    operations.push_back(operation_from("find_sharp_lines", panel_->values("find_sharp_lines")));
-  if (lines || !document.find_partitions || document.find_partitions->out_of_date) {
-    // Intervals never chosen come from the part once its lines are known.
-    operations.push_back(document.find_partitions
-                             ? operation_from("find_partitions", panel_->values("find_partitions"))
-                             : Operation{"find_partitions", nlohmann::json::object()});
+  for (const char* name : chain) {
+    const std::optional<Step>& step = document.step(name);
+    // From the first step to be run on, the later ones are out of date, too.
+    if (operations.empty() && step && !step->out_of_date) continue;
+    // A step never run takes its defaults from what the steps before it leave.
+    operations.push_back(step ? operation_from(name, panel_->values(name))
+                              : Operation{name, nlohmann::json::object()});
   }
   session_->run(std::move(operations));
 }
@@ -149,6 +153,10 @@ void StepsPresenter::refresh() {
   lines.name = "find_sharp_lines";
   lines.title = tr("Sharp lines");
   lines.tooltip = tr("Finds the sharp lines of the part (section 6).");
+  StepCard smoothing;
+  smoothing.name = "smooth_curvature";
+  smoothing.title = tr("Curvature smoothing");
+  smoothing.tooltip = tr("Averages curvature over neighbours, never across a line (section 4.4).");
   StepCard partitions;
   partitions.name = "find_partitions";
   partitions.title = tr("Partitions");
@@ -188,6 +196,16 @@ void StepsPresenter::refresh() {
                      QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
     }
 
+    const nlohmann::json s = session_->parameters("smooth_curvature");
+    smoothing.state = state(document.smooth_curvature);
+    smoothing.time = seconds_text(session_->seconds_of("smooth_curvature"));
+    smoothing.parameters = {whole("passes", tr("Passes"),
+                                  tr("Passes of eq. 20 over the whole part."), s.value("passes", 3),
+                                  1, 100)};
+    if (document.smooth_curvature)
+      smoothing.result =
+          counted(static_cast<std::size_t>(s.value("passes", 0)), tr("pass"), tr("passes"));
+
     const nlohmann::json q = session_->parameters("find_partitions");
     partitions.state = state(document.find_partitions);
     partitions.time = seconds_text(session_->seconds_of("find_partitions"));
@@ -217,10 +235,10 @@ void StepsPresenter::refresh() {
     partitions.parameters = {
         criterion, intervals,
         whole("min_faces", tr("Least faces"), tr("Partitions with fewer faces are not kept."),
-              q.value("min_faces", 1), 1, 1000000000),
+              q.value("min_faces", 1), 1, 999999),
         whole("fill_holes", tr("Fill under"),
               tr("Unassigned areas with fewer faces join the partition around them; 0 fills none."),
-              q.value("fill_holes", 0), 0, 1000000000)};
+              q.value("fill_holes", 0), 0, 999999)};
     if (document.find_partitions)
       partitions.result =
           counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) + ", " +
@@ -231,9 +249,7 @@ void StepsPresenter::refresh() {
   cards.push_back(later("equilateralize", tr("Equilateralisation"),
                         tr("Swaps edges so that faces are nearly equilateral (section 4.3). Comes "
                            "with a later version.")));
-  cards.push_back(later("smooth_curvature", tr("Curvature smoothing"),
-                        tr("Averages curvature over neighbours, never across a line (section 4.4). "
-                           "Comes with a later version.")));
+  cards.push_back(smoothing);
   cards.push_back(partitions);
   panel_->set_cards(cards);
 }

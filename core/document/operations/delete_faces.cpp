@@ -152,6 +152,8 @@ Result<void> change_mesh(Document& document, MeshPtr mesh, const Context& contex
   document.curvatures = std::move(*curvatures);
   document.partitions = {};
   if (document.find_sharp_lines) document.find_sharp_lines->out_of_date = true;
+  document.smoothed = nullptr;
+  if (document.smooth_curvature) document.smooth_curvature->out_of_date = true;
   if (document.find_partitions) document.find_partitions->out_of_date = true;
   return {};
 }

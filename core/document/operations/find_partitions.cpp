@@ -21,7 +21,7 @@ Result<nlohmann::json> resolve_partitions(const Document& document, const nlohma
   if (intervals.is_null() || (intervals.is_array() && intervals.empty())) {
     nlohmann::json chosen = nlohmann::json::array();
     for (const CurvatureInterval& interval :
-         default_intervals(*document.mesh, *document.curvatures, criterion, document.lines))
+         default_intervals(*document.mesh, *document.shown_curvatures(), criterion, document.lines))
       chosen.push_back({interval.min, std::isfinite(interval.max) ? nlohmann::json(interval.max)
                                                                   : nlohmann::json()});
     reader.set("intervals", std::move(chosen));
@@ -55,7 +55,7 @@ Result<Document> apply_partitions(const Document& document, const nlohmann::json
                                                   ? std::numeric_limits<double>::infinity()
                                                   : interval[1].get<double>()});
   const Result<FoundPartitions> found =
-      propagate_fronts(*document.mesh, values_of(*document.curvatures, options.criterion),
+      propagate_fronts(*document.mesh, values_of(*document.shown_curvatures(), options.criterion),
                        document.lines, options, context);
   if (!found) return tl::unexpected<Error>(found.error());
   Document result = document;

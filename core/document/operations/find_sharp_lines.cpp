@@ -37,6 +37,7 @@ Result<Document> apply_lines(const Document& document, const nlohmann::json& par
   result.lines =
       relink_lines(*document.mesh, *document.curvatures, *edges, document.lines, result.next_id);
   result.find_sharp_lines = Step{parameters, false};
+  if (result.smooth_curvature) result.smooth_curvature->out_of_date = true;
   if (result.find_partitions) result.find_partitions->out_of_date = true;
   return result;
 }

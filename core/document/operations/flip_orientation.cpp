@@ -1,3 +1,4 @@
+#include "core/curvature_smoothing/smooth_curvature.h"
 #include "core/document/operations/operations.h"
 
 #include <utility>
@@ -31,6 +32,14 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
     for (EdgeId e = 0; e < edges.size(); ++e) edges[e] = document.lines.edges[e];
     result.lines =
         relink_lines(*result.mesh, *result.curvatures, edges, document.lines, result.next_id);
+  }
+  if (result.smoothed) {
+    SmoothCurvatureOptions options;
+    options.passes = result.smooth_curvature->parameters.at("passes");
+    Result<CurvaturesPtr> smoothed =
+        smooth_curvatures(*result.mesh, *result.curvatures, result.lines, options, context);
+    if (!smoothed) return tl::unexpected<Error>(smoothed.error());
+    result.smoothed = std::move(*smoothed);
   }
   return result;
 }

@@ -11,6 +11,7 @@ extern const OperationKind open_operation;
 extern const OperationKind flip_orientation_operation;
 extern const OperationKind delete_faces_operation;
 extern const OperationKind find_sharp_lines_operation;
+extern const OperationKind smooth_curvature_operation;
 extern const OperationKind find_partitions_operation;
 
 /// Replaces the mesh of `document`. Sharp edges that the new mesh still has inside stay, the lines

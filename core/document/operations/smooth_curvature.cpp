@@ -1,0 +1,39 @@
+#include "core/curvature_smoothing/smooth_curvature.h"
+
+#include "core/document/operations/operations.h"
+
+namespace arris {
+
+namespace {
+
+Result<nlohmann::json> resolve_smooth(const Document&, const nlohmann::json& given) {
+  ParameterReader reader("smooth_curvature", given);
+  reader.whole("passes", SmoothCurvatureOptions().passes, 1, 100);
+  return reader.finish();
+}
+
+Result<Document> apply_smooth(const Document& document, const nlohmann::json& parameters,
+                              const Context& context) {
+  SmoothCurvatureOptions options;
+  options.passes = parameters.at("passes");
+  Result<CurvaturesPtr> smoothed =
+      smooth_curvatures(*document.mesh, *document.curvatures, document.lines, options, context);
+  if (!smoothed) return tl::unexpected<Error>(smoothed.error());
+  Document result = document;
+  result.smoothed = std::move(*smoothed);
+  result.smooth_curvature = Step{parameters, false};
+  if (result.find_partitions) result.find_partitions->out_of_date = true;
+  return result;
+}
+
+std::string gist_smooth(const nlohmann::json& parameters) {
+  const int passes = parameters.value("passes", 0);
+  return std::to_string(passes) + (passes == 1 ? " pass" : " passes");
+}
+
+}  // namespace
+
+const OperationKind smooth_curvature_operation{"smooth_curvature", "Smooth curvature", 1,
+                                               resolve_smooth,     apply_smooth,       gist_smooth};
+
+}  // namespace arris
