@@ -21,6 +21,11 @@ bool is_convex(const Point& p, const Point& q, const Point& r, const Point& s) {
   return sine_u * cosine_w + cosine_u * sine_w > 1e-12 * along.squaredNorm() * u.norm() * w.norm();
 }
 
+bool is_degenerate(const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a;
+  return WorkingMesh::is_degenerate(ab.cross(ac).norm(), ab, ac, c - b);
+}
+
 }  // namespace
 
 SwapEngine::SwapEngine(WorkingMesh& mesh, Cost cost, bool wide)
@@ -86,9 +91,8 @@ bool SwapEngine::try_swap(SideId side, const SwapOptions& options) {
   s.new_left = mesh_.normal_of(s.a, s.d, s.c);
   s.new_right = mesh_.normal_of(s.d, s.b, s.c);
   const Values values = cost_(mesh_, s);
-  if (!values.better || WorkingMesh::is_degenerate(a, d, c) ||
-      WorkingMesh::is_degenerate(d, b, c) || mesh_.has_edge(s.c, s.d) || is_flip(s) ||
-      !zones_fit(s))
+  if (!values.better || is_degenerate(a, d, c) || is_degenerate(d, b, c) ||
+      mesh_.has_edge(s.c, s.d) || is_flip(s) || !zones_fit(s))
     return false;
   swap(s);
   if (options.observe) options.observe(values.before, values.after);

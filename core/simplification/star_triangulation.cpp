@@ -60,10 +60,13 @@ void StarTriangulator::set(const StarPolygon& polygon) {
           const int first = a;
           a = b, b = c, c = first;
         }
-        state.possible =
-            !WorkingMesh::is_degenerate(polygon.points[a], polygon.points[b], polygon.points[c]);
-        if (state.possible)
-          state.normal = unit_normal(polygon.points[a], polygon.points[b], polygon.points[c]);
+        const Point ab = polygon.points[b] - polygon.points[a];
+        const Point ac = polygon.points[c] - polygon.points[a];
+        const Point bc = polygon.points[c] - polygon.points[b];
+        const Point cross = ab.cross(ac);
+        state.area = cross.norm();
+        state.possible = !WorkingMesh::is_degenerate(state.area, ab, ac, bc);
+        state.normal = cross / state.area;
       }
 }
 
@@ -140,11 +143,10 @@ bool StarTriangulator::best_by_face(StarCost cost, std::vector<StarFace>& faces)
       least[i][j] = impossible;
       middle[i][j] = -1;
       for (int m = i + 1; m < j; ++m) {
-        if (!states_[index(i, m, j)].possible) continue;
-        const double own = is_area
-                               ? (p.points[m] - p.points[i]).cross(p.points[j] - p.points[i]).norm()
-                               : largest_angle_cost(p.points[i], p.points[m], p.points[j]);
-        double sum = own;
+        const State& state = states_[index(i, m, j)];
+        if (!state.possible) continue;
+        double sum =
+            is_area ? state.area : largest_angle_cost(p.points[i], p.points[m], p.points[j]);
         for (const double part : {least[i][m], least[m][j]}) {
           if (!is_area)
             sum = std::max(sum, part);

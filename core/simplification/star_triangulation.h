@@ -72,6 +72,7 @@ class StarTriangulator {
   static constexpr int n_ = StarPolygon::max_size;
   struct State {
     Point normal;
+    double area;              // twice the area of this face
     double cost;              // flat: best of the interval with this face on its base
     std::int8_t left, right;  // flat: middle of the best face beyond each side; -1: outer edge
     bool possible;

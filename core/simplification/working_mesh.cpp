@@ -7,13 +7,6 @@
 
 namespace arris {
 
-namespace {
-
-/// Height over longest side below which a triangle counts as degenerate.
-constexpr double least_height_share = 1e-4;
-
-}  // namespace
-
 WorkingMesh::WorkingMesh(const Mesh& mesh, const ErrorZones& zones,
                          const ChunkedArray<Origin>& sharp)
     : points_(mesh.points()),
@@ -76,13 +69,6 @@ Point WorkingMesh::normal_of(VertexId a, VertexId b, VertexId c) const {
   if (b < a && b < c) return unit_normal(points_[b], points_[c], points_[a]);
   if (c < a && c < b) return unit_normal(points_[c], points_[a], points_[b]);
   return unit_normal(points_[a], points_[b], points_[c]);
-}
-
-bool WorkingMesh::is_degenerate(const Point& a, const Point& b, const Point& c) {
-  const Point ab = b - a, ac = c - a;
-  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  return !(ab.cross(ac).squaredNorm() >
-           least_height_share * least_height_share * longest * longest);
 }
 
 void WorkingMesh::set_face(FaceId f, VertexId a, VertexId b, VertexId c, const Point& normal) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -89,7 +90,12 @@ class WorkingMesh {
   /// Unit normal of a triangle of these vertices, bit for bit the same whichever comes first.
   Point normal_of(VertexId a, VertexId b, VertexId c) const;
   /// True where the height of a triangle is nothing beside its longest side: it may not be made.
-  static bool is_degenerate(const Point& a, const Point& b, const Point& c);
+  /// `area`: twice its area.
+  static bool is_degenerate(double area, const Point& ab, const Point& ac, const Point& bc) {
+    constexpr double least_height_share = 1e-4;
+    return !(area >
+             least_height_share * std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()}));
+  }
 
   // Zones.
   VertexId next_zone(VertexId v) const { return next_zone_[v]; }
