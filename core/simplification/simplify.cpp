@@ -132,6 +132,12 @@ class Simplifier {
   }
 
  private:
+  struct Zone {
+    Point centre;
+    double radius2;
+    VertexId vertex;
+    std::uint32_t face;  // index in faces_
+  };
   static constexpr std::uint8_t no_corner = 0xFF;
   static constexpr int max_size = StarPolygon::max_size;
 
@@ -142,13 +148,15 @@ class Simplifier {
     is_border_ = mesh_.is_border(v);
     if (!read_star()) return false;
     if (is_border_ && !border_zones_fit()) return false;
-    zones_read_ = false;
+    zones_read_ = is_exhausted_ = false;
+    zones_.clear();
+    if (!is_border_) add_zone(v);
     if (polygon_.size == 2) return try_remove_ear();
     if (!read_joined_corners()) return false;
     limit_angles();
     triangulator_.set(polygon_);
     const StarCost other = options_.cost == StarCost::flat ? StarCost::angle : StarCost::flat;
-    const bool accepted = try_best(options_.cost) || (polygon_.size > 3 && try_best(other));
+    const bool accepted = try_best(options_.cost) || (!is_exhausted_ && try_best(other));
     if (accepted) rebuild();
     return accepted;
   }
@@ -158,16 +166,15 @@ class Simplifier {
   /// next best taken, until one will do, there is none, or the zone lies beside all its faces.
   bool try_best(StarCost cost) {
     for (;;) {
-      if (!triangulator_.best(cost, faces_) || !keeps_fans_open()) return false;
-      const VertexId zone = find_unmet_zone();
-      if (zone == no_id) return true;
-      const Point& p = mesh_.point(zone);
-      const double radius2 = mesh_.squared_radius(zone);
+      if (!triangulator_.best(cost, faces_)) {
+        is_exhausted_ = faces_.empty();
+        return false;
+      }
+      if (!keeps_fans_open()) return false;
+      const Zone* zone = find_unmet_zone();
+      if (zone == nullptr) return true;
       const auto is_far = [&](const StarFace& face) {
-        TriangleQuery query;
-        query.set(polygon_.points[face.first], polygon_.points[face.middle],
-                  polygon_.points[face.last], triangulator_.normal(face));
-        return query.is_far_over(p, radius2);
+        return triangulator_.query(face).is_far_over(zone->centre, zone->radius2);
       };
       if (std::ranges::none_of(faces_, is_far)) return false;
       triangulator_.rule_out(is_far);
@@ -256,15 +263,14 @@ class Simplifier {
     return true;
   }
 
+  void add_zone(VertexId v) { zones_.push_back({mesh_.point(v), mesh_.squared_radius(v), v, 0}); }
+
+  /// The zones of the faces of the star.
   void read_zones() {
-    if (zones_read_) return;
     zones_read_ = true;
-    zones_.clear();
-    if (!is_border_) zones_.push_back(vertex_);
     for (int i = 0; i < face_count_; ++i)
       for (VertexId v = mesh_.face(star_faces_[i]).first_zone; v != no_id; v = mesh_.next_zone(v))
-        zones_.push_back(v);
-    answering_.resize(zones_.size());
+        add_zone(v);
   }
 
   /// Whether faces_ leaves every inner vertex three faces or more.
@@ -278,40 +284,37 @@ class Simplifier {
     return true;
   }
 
-  /// A zone that meets none of faces_; no_id where there is none, and it is noted which face is to
-  /// answer for which zone.
-  VertexId find_unmet_zone() {
-    for (std::size_t k = 0; k < faces_.size(); ++k)
-      queries_[k].set(polygon_.points[faces_[k].first], polygon_.points[faces_[k].middle],
-                      polygon_.points[faces_[k].last], triangulator_.normal(faces_[k]));
-    read_zones();
-    std::size_t k = 0;  // neighbours in the list tend to lie over the same face
-    for (std::size_t i = 0; i < zones_.size(); ++i) {
+  /// A zone that meets none of faces_; null where there is none, and each knows which face is to
+  /// answer for it. The vertex's own comes first: it is the one most often, and the others need not
+  /// be gathered then.
+  const Zone* find_unmet_zone() {
+    for (std::size_t k = 0; k < faces_.size(); ++k) queries_[k] = &triangulator_.query(faces_[k]);
+    std::uint32_t k = 0;  // neighbours in the list tend to lie over the same face
+    for (std::size_t i = 0;; ++i) {
+      if (i == zones_.size() && !zones_read_) read_zones();
+      if (i == zones_.size()) return nullptr;
       if (!find_face(zones_[i], k)) {
-        std::swap(zones_[i], zones_[i / 2]);  // the worst ones come first the next time
-        return zones_[i / 2];
+        std::swap(zones_[i], zones_[0]);  // it may well be the one the next time, too
+        return &zones_[0];
       }
-      answering_[i] = static_cast<std::uint8_t>(k);
+      zones_[i].face = k;
     }
-    return no_id;
   }
 
   /// The face that is to answer for a zone: one it lies over, else the nearest. `k`: where to look
   /// first, and the result. False where none is near enough.
-  bool find_face(VertexId zone, std::size_t& k) const {
-    const Point& p = mesh_.point(zone);
-    const double radius2 = mesh_.squared_radius(zone);
-    if (queries_[k].is_over(p, radius2)) return true;
-    const std::size_t first = k;
+  bool find_face(const Zone& zone, std::uint32_t& k) const {
+    if (queries_[k]->is_over(zone.centre, zone.radius2)) return true;
+    const std::uint32_t first = k;
     for (k = 0; k < faces_.size(); ++k)
-      if (k != first && queries_[k].is_over(p, radius2)) return true;
+      if (k != first && queries_[k]->is_over(zone.centre, zone.radius2)) return true;
     double least = std::numeric_limits<double>::infinity();
     k = first;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const double distance2 = queries_[i].squared_distance(p);
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      const double distance2 = queries_[i]->squared_distance(zone.centre);
       if (distance2 < least) least = distance2, k = i;
     }
-    return least <= radius2;
+    return least <= zone.radius2;
   }
 
   void rebuild() {
@@ -341,8 +344,7 @@ class Simplifier {
       for (SideId side = 0; side < 3; ++side) mesh_.update_first_side(4 * star_faces_[k] + side);
     for (int k = static_cast<int>(faces_.size()); k < face_count_; ++k)
       mesh_.drop_face(star_faces_[k]);
-    for (std::size_t i = 0; i < zones_.size(); ++i)
-      mesh_.add_zone(star_faces_[answering_[i]], zones_[i]);
+    for (const Zone& zone : zones_) mesh_.add_zone(star_faces_[zone.face], zone.vertex);
     if (is_border_) pass_border_zones();
     mesh_.drop_vertex(vertex_);
   }
@@ -365,13 +367,13 @@ class Simplifier {
     read_zones();
     const FaceId heir = beyond >> 2;
     const Triangle& t = mesh_.face(heir).vertices;
-    for (const VertexId zone : zones_)
-      if (squared_distance_to_triangle(mesh_.point(zone), mesh_.point(t[0]), mesh_.point(t[1]),
-                                       mesh_.point(t[2])) > mesh_.squared_radius(zone))
+    for (const Zone& zone : zones_)
+      if (squared_distance_to_triangle(zone.centre, mesh_.point(t[0]), mesh_.point(t[1]),
+                                       mesh_.point(t[2])) > zone.radius2)
         return false;
     mesh_.link(beyond, no_id);
     mesh_.update_first_side(beyond);
-    for (const VertexId zone : zones_) mesh_.add_zone(heir, zone);
+    for (const Zone& zone : zones_) mesh_.add_zone(heir, zone.vertex);
     pass_border_zones();
     mesh_.drop_face(star_faces_[0]);
     mesh_.drop_vertex(vertex_);
@@ -394,10 +396,10 @@ class Simplifier {
   std::array<int, max_size> neighbours_;
   StarTriangulator triangulator_;
   std::vector<StarFace> faces_;
-  std::array<TriangleQuery, max_size> queries_;
+  std::array<const TriangleQuery*, max_size> queries_;  // of faces_
   bool zones_read_ = false;
-  std::vector<VertexId> zones_;
-  std::vector<std::uint8_t> answering_;  // for each of zones_ its new face
+  bool is_exhausted_ = false;  // no triangulation is left, for any cost
+  std::vector<Zone> zones_;
 };
 
 bool is_length(double value) { return std::isfinite(value) && value >= 0.0; }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/simplification/distance.h"
 #include "core/simplification/working_mesh.h"
 
 namespace arris {
@@ -67,6 +66,7 @@ void StarTriangulator::set(const StarPolygon& polygon) {
         state.area = cross.norm();
         state.possible = !WorkingMesh::is_degenerate(state.area, ab, ac, bc);
         state.normal = cross / state.area;
+        state.has_query = false;
       }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/simplification/distance.h"
 
 namespace arris {
 
@@ -59,13 +60,23 @@ class StarTriangulator {
             state.possible = !is_bad(StarFace{i, m, j});
   }
   /// The best triangulation, size - 2 faces, or none that keeps to the rules. Ties go to the lowest
-  /// middle corner.
+  /// middle corner. `faces` comes back empty where there is no triangulation at all for any cost.
   bool best(StarCost cost, std::vector<StarFace>& faces);
   /// The cost of a triangulation: what best() makes least. For the largest angle minus its cosine.
   double cost_of(StarCost cost, std::span<const StarFace> faces) const;
   /// Unit normal of a face given by best(); does not depend on where the polygon starts.
   const Point& normal(const StarFace& face) const {
     return states_[index(face.first, face.middle, face.last)].normal;
+  }
+  /// A possible face made ready for distance queries.
+  const TriangleQuery& query(const StarFace& face) {
+    State& state = states_[index(face.first, face.middle, face.last)];
+    if (!state.has_query) {
+      state.has_query = true;
+      state.query.set(polygon_->points[face.first], polygon_->points[face.middle],
+                      polygon_->points[face.last], state.normal);
+    }
+    return state.query;
   }
 
  private:
@@ -76,6 +87,8 @@ class StarTriangulator {
     double cost;              // flat: best of the interval with this face on its base
     std::int8_t left, right;  // flat: middle of the best face beyond each side; -1: outer edge
     bool possible;
+    bool has_query;
+    TriangleQuery query;
   };
   static int index(int first, int middle, int last) { return (first * n_ + middle) * n_ + last; }
   bool may_join(int i, int j) const;

@@ -147,6 +147,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     progress_->setValue(static_cast<int>(100.0 * fraction));
     progress_->setFormat(what + " %p %");
   });
+  // A selection made in the view brings its table to the front.
+  connect(elements_, &ElementsPresenter::selection_changed, this, [this] {
+    const char* name = !elements_->selected_lines().empty()        ? "lines"
+                       : !elements_->selected_partitions().empty() ? "partitions"
+                                                                   : nullptr;
+    if (name) findChild<QDockWidget*>(name)->raise();
+  });
   connect(view_, &MeshView::hovered, this, &MainWindow::show_hover);
   connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
   connect(fields_, &FieldPresenter::changed, this, [this] {

@@ -24,6 +24,15 @@ QString counted(std::size_t count, const QString& one, const QString& many) {
 /// The steps that can be run, in the order of figure 2.
 constexpr const char* chain[] = {"find_sharp_lines", "smooth_curvature", "find_partitions"};
 
+/// Never run unless asked for: it smears the noise of a scan that was not simplified.
+bool is_optional(std::string_view step) { return step == "smooth_curvature"; }
+
+/// Whether "run all that is out of date" means this step.
+bool wants_run(const Document& document, const char* name) {
+  const std::optional<Step>& step = document.step(name);
+  return step ? step->out_of_date : !is_optional(name);
+}
+
 StepCard later(const QString& name, const QString& title, const QString& tooltip) {
   StepCard card;
   card.name = name;
@@ -101,10 +110,8 @@ void StepsPresenter::run(const QString& step) {
 bool StepsPresenter::anything_out_of_date() const {
   const Document& document = session_->current().document;
   return !document.empty() &&
-         std::any_of(std::begin(chain), std::end(chain), [&](const char* name) {
-           const std::optional<Step>& step = document.step(name);
-           return !step || step->out_of_date;
-         });
+         std::any_of(std::begin(chain), std::end(chain),
+                     [&](const char* name) { return wants_run(document, name); });
 }
 
 void StepsPresenter::run_out_of_date() {
@@ -113,8 +120,8 @@ void StepsPresenter::run_out_of_date() {
   std::vector<Operation> operations;
   for (const char* name : chain) {
     const std::optional<Step>& step = document.step(name);
-    // From the first step to be run on, the later ones are out of date, too.
-    if (operations.empty() && step && !step->out_of_date) continue;
+    // Once one step is run, the later ones that were run are out of date, too.
+    if (!wants_run(document, name) && !(step && !operations.empty())) continue;
     // A step never run takes its defaults from what the steps before it leave.
     operations.push_back(step ? operation_from(name, panel_->values(name))
                               : Operation{name, nlohmann::json::object()});
