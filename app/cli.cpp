@@ -84,12 +84,9 @@ nlohmann::json summary_of(const History& history) {
   summary["angle_noise_degrees"] = angle_noise(*document.curvatures);
   summary["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
   nlohmann::json thresholds = nlohmann::json::object();
-  if (document.find_sharp_lines)
-    thresholds["find_sharp_lines"] = document.find_sharp_lines->parameters;
-  if (document.smooth_curvature)
-    thresholds["smooth_curvature"] = document.smooth_curvature->parameters;
-  if (document.find_partitions)
-    thresholds["find_partitions"] = document.find_partitions->parameters;
+  for (const char* step : {"simplify", "swap_edges", "find_sharp_lines", "equilateralize",
+                           "smooth_curvature", "find_partitions"})
+    if (document.step(step)) thresholds[step] = document.step(step)->parameters;
   summary["thresholds"] = thresholds;
 
   double length = 0.0;
@@ -206,6 +203,35 @@ int segment(const std::string& scan, const std::string& folder, const nlohmann::
   return 0;
 }
 
+int simplify_scan(const std::string& scan, const std::string& output,
+                  const nlohmann::json& parameters) {
+  Run run;
+  for (const Operation& operation :
+       {Operation{"open", {{"file", scan}}}, Operation{"simplify", parameters}})
+    if (const auto done = run.step(operation); !done) return complain(done.error());
+  const Document& document = run.history.current();
+  // Vertices that went are not written; the ids of the scan are in the journal, not in a PLY.
+  std::vector<Point> points;
+  std::vector<VertexId> number(document.mesh->vertex_count(), no_id);
+  std::vector<Triangle> triangles = document.mesh->triangles();
+  for (VertexId v = 0; v < number.size(); ++v)
+    if (!document.mesh->is_isolated(v)) {
+      number[v] = static_cast<VertexId>(points.size());
+      points.push_back(document.mesh->point(v));
+    }
+  for (Triangle& t : triangles)
+    for (VertexId& v : t) v = number[v];
+  const std::size_t left = points.size();
+  const Result<MeshPtr> compact = Mesh::create(std::move(points), std::move(triangles));
+  if (!compact) return complain(compact.error());
+  if (const auto written = write_ply(output, **compact, {}); !written)
+    return complain(written.error());
+  std::cout << document.opened.mesh->vertex_count() << " -> " << left << " vertices, all within "
+            << document.simplify->parameters["error_zone"] << " of the scan, written to " << output
+            << "\n";
+  return 0;
+}
+
 int replay_file(const std::string& operations, const std::string& scan, const std::string& folder) {
   const auto start = std::chrono::steady_clock::now();
   const Result<Replay> done = replay(operations, {scan}, progress_context());
@@ -270,6 +296,27 @@ int main(int argc, char** argv) {
   curvature_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
   curvature_command->add_option("-o,--output", output, "The PLY to write")->required();
 
+  CLI::App* simplify_command =
+      app.add_subcommand("simplify", "Remove vertices inside error zones and write a PLY");
+  double error_zone = 0.0, max_edge = 0.0;
+  int target = 0;
+  std::string cost;
+  simplify_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  simplify_command->add_option("-o,--output", output, "The PLY to write")->required();
+  CLI::Option* zone_option =
+      simplify_command
+          ->add_option("--error-zone", error_zone, "Radius in mm; left out: the noise of the scan")
+          ->check(CLI::NonNegativeNumber);
+  CLI::Option* edge_option =
+      simplify_command->add_option("--max-edge", max_edge, "No new edge longer than this (mm)")
+          ->check(CLI::NonNegativeNumber);
+  CLI::Option* cost_option =
+      simplify_command->add_option("--cost", cost, "How stars are triangulated: flat, angle, area")
+          ->check(CLI::IsMember({"flat", "angle", "area"}));
+  CLI::Option* target_option =
+      simplify_command->add_option("--target", target, "Stop when so many vertices are left")
+          ->check(CLI::PositiveNumber);
+
   CLI::App* segment_command =
       app.add_subcommand("segment", "Find sharp lines and partitions; defaults come from the part");
   double sharp_angle = 0.0, min_length = 0.0;
@@ -331,8 +378,15 @@ int main(int argc, char** argv) {
   if (*faces_option) partitions["min_faces"] = min_faces;
   if (*fill_option) partitions["fill_holes"] = fill_holes;
 
+  nlohmann::json simplification = nlohmann::json::object();
+  if (*zone_option) simplification["error_zone"] = error_zone;
+  if (*edge_option) simplification["max_edge_length"] = max_edge;
+  if (*cost_option) simplification["cost"] = cost;
+  if (*target_option) simplification["target_vertices"] = target;
+
   if (*info_command) return info(scan, as_json);
   if (*curvature_command) return curvature(scan, output);
+  if (*simplify_command) return simplify_scan(scan, output, simplification);
   if (*segment_command) return segment(scan, output, lines, partitions);
   if (*replay_command) return replay_file(operations, other_scan, output);
   return sample(output);

@@ -1,6 +1,11 @@
 #include "core/document/document.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/base/hash.h"
+#include "core/base/parallel.h"
+#include "core/simplification/distance.h"
 
 namespace arris {
 
@@ -13,13 +18,81 @@ void add(Hasher& hasher, const std::optional<Step>& step) {
   hasher.number(step->out_of_date);
 }
 
+void add(Hasher& hasher, const ErrorZonesPtr& zones) {
+  hasher.number(zones != nullptr);
+  if (!zones) return;
+  hasher.bytes(zones->radii().data(), zones->radii().size() * sizeof(double));
+  for (FaceId f = 0; f < zones->face_count(); ++f) {
+    const auto of_face = zones->of_face(f);
+    hasher.number(of_face.size());
+    hasher.bytes(of_face.data(), of_face.size_bytes());
+  }
+}
+
 void add_real(Hasher& hasher, double value) { hasher.bytes(&value, sizeof value); }
+
+/// For each face of `from` the face of the working mesh that labels_on_scan() takes its label from.
+std::vector<FaceId> nearest_working_faces(const Mesh& from, const Mesh& working,
+                                          const ErrorZonesPtr& zones) {
+  std::vector<FaceId> answering(from.vertex_count(), no_id);  // of each removed vertex
+  if (zones) {
+    for (FaceId f = 0; f < working.face_count(); ++f)
+      for (const VertexId v : zones->of_face(f)) answering[v] = f;
+    for (EdgeId e = 0; e < working.edge_count(); ++e)
+      for (const VertexId v : zones->of_border_edge(e)) {
+        const auto [left, right] = working.edge_faces(e);
+        answering[v] = left != no_id ? left : right;
+      }
+  }
+  std::vector<FaceId> nearest(from.face_count(), no_id);
+  parallel_for(from.face_count(), [&](std::size_t i) {
+    static thread_local std::vector<FaceId> candidates;
+    candidates.clear();
+    const Triangle& t = from.triangle(static_cast<FaceId>(i));
+    for (const VertexId v : t) {
+      if (answering[v] != no_id)
+        candidates.push_back(answering[v]);
+      else if (!working.is_isolated(v))
+        working.for_ring(v, [&](HalfEdgeId h) {
+          if (working.face(h) != no_id) candidates.push_back(working.face(h));
+        });
+    }
+    const std::size_t direct = candidates.size();
+    for (std::size_t k = 0; k < direct; ++k) {
+      HalfEdgeId h = working.face_half_edge(candidates[k]);
+      for (int side = 0; side < 3; ++side, h = working.next(h))
+        if (const FaceId f = working.face(Mesh::opposite(h)); f != no_id) candidates.push_back(f);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    const Point& a = from.point(t[0]);
+    const Point& b = from.point(t[1]);
+    const Point& c = from.point(t[2]);
+    const Point centre = (a + b + c) / 3.0;
+    const Point normal = (b - a).cross(c - a).normalized();
+    double least = std::numeric_limits<double>::infinity(), agreement = -2.0;
+    for (const FaceId f : candidates) {
+      const Triangle& w = working.triangle(f);
+      const Point &p = working.point(w[0]), &q = working.point(w[1]), &r = working.point(w[2]);
+      const double distance = squared_distance_to_triangle(centre, p, q, r);
+      const double cosine = (q - p).cross(r - p).normalized().dot(normal);
+      if (distance > least || (distance == least && cosine <= agreement)) continue;
+      least = distance;
+      agreement = cosine;
+      nearest[i] = f;
+    }
+  });
+  return nearest;
+}
 
 }  // namespace
 
 const std::optional<Step>& Document::step(std::string_view name) const {
   static const std::optional<Step> none;
-  return name == "find_sharp_lines"   ? find_sharp_lines
+  return name == "simplify"           ? simplify
+         : name == "swap_edges"       ? swap_edges
+         : name == "find_sharp_lines" ? find_sharp_lines
+         : name == "equilateralize"   ? equilateralize
          : name == "smooth_curvature" ? smooth_curvature
          : name == "find_partitions"  ? find_partitions
                                       : none;
@@ -60,7 +133,13 @@ std::string hash_of(const Document& document) {
     add_real(hasher, partition->interval.min);
     add_real(hasher, partition->interval.max);
   }
+  for (const Stage* stage : {&document.opened, &document.simplified, &document.swapped})
+    hasher.text(stage->mesh ? stage->mesh->hash() : "");
+  add(hasher, document.zones);
+  add(hasher, document.simplify);
+  add(hasher, document.swap_edges);
   add(hasher, document.find_sharp_lines);
+  add(hasher, document.equilateralize);
   add(hasher, document.smooth_curvature);
   add(hasher, document.find_partitions);
   hasher.number(document.next_id);
@@ -69,8 +148,17 @@ std::string hash_of(const Document& document) {
 
 std::vector<std::uint32_t> labels_on_scan(const Document& document) {
   std::vector<std::uint32_t> labels(document.scan->mesh->face_count(), 0);
-  for (FaceId f = 0; f < document.partitions.labels.size(); ++f)
-    labels[document.scan_faces ? (*document.scan_faces)[f] : f] = document.partitions.labels[f];
+  if (document.partitions.labels.empty()) return labels;
+  const Mesh& from = *document.opened.mesh;
+  std::vector<FaceId> nearest;
+  if (document.mesh != document.opened.mesh)
+    nearest = nearest_working_faces(from, *document.mesh, document.zones);
+  for (FaceId f = 0; f < from.face_count(); ++f) {
+    const FaceId working = nearest.empty() ? f : nearest[f];
+    if (working == no_id) continue;
+    labels[document.scan_faces ? (*document.scan_faces)[f] : f] =
+        document.partitions.labels[working];
+  }
   return labels;
 }
 
@@ -87,6 +175,16 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
   if (document.mesh && document.mesh != base.mesh) bytes += document.mesh->bytes();
   if (document.curvatures && document.curvatures != base.curvatures)
     bytes += document.curvatures->bytes();
+  const auto add_stage = [&](const Stage& stage, const Stage& other) {
+    if (stage.mesh && stage.mesh != document.mesh && stage.mesh != other.mesh)
+      bytes += stage.mesh->bytes() + (stage.curvatures ? stage.curvatures->bytes() : 0);
+    if (stage.zones && stage.zones != document.zones && stage.zones != other.zones)
+      bytes += stage.zones->bytes();
+  };
+  add_stage(document.opened, base.opened);
+  add_stage(document.simplified, base.simplified);
+  add_stage(document.swapped, base.swapped);
+  if (document.zones && document.zones != base.zones) bytes += document.zones->bytes();
   if (document.smoothed && document.smoothed != base.smoothed) bytes += document.smoothed->bytes();
   if (document.scan_faces && document.scan_faces != base.scan_faces)
     bytes += document.scan_faces->size() * sizeof(FaceId);

@@ -16,6 +16,7 @@
 #include "core/partitions/boundaries.h"
 #include "core/partitions/partitions.h"
 #include "core/sharp_lines/lines.h"
+#include "core/simplification/error_zones.h"
 
 namespace arris {
 
@@ -29,18 +30,32 @@ struct Step {
 
 /// The document: an immutable value whose parts are shared between snapshots (document.md, rule 2).
 /// Copying it costs a few pointers. Camera, selection and colours are not part of it.
+/// What a step of figure 2 that changes the mesh leaves to the next one.
+struct Stage {
+  MeshPtr mesh;  ///< Null: the step has no output.
+  CurvaturesPtr curvatures;
+  ErrorZonesPtr zones;  ///< Null: every vertex is its own zone.
+};
+
 struct Document {
   ScanPtr scan;              ///< Null in the empty document.
   std::string scan_path;     ///< As the user gave it; not part of what makes documents equal.
   MeshPtr mesh;              ///< The one current mesh.
   CurvaturesPtr curvatures;  ///< Of `mesh`; derived, shared.
-  /// For each face of `mesh` its face in scan->mesh; null: the same numbers.
+  ErrorZonesPtr zones;       ///< Of `mesh`; null: nothing was simplified or swapped.
+  /// Outputs of the steps before: the scan (flipped, cropped), then simplified, then swapped.
+  /// Running a step again starts from the last of those before it (document.md, rule 3).
+  Stage opened, simplified, swapped;
+  /// For each face of opened.mesh its face in scan->mesh; null: the same numbers.
   std::shared_ptr<const std::vector<FaceId>> scan_faces;
 
   SharpLines lines;
   Partitions partitions;
-  CurvaturesPtr smoothed;    ///< Output of smooth_curvature; null: not run on this mesh.
+  CurvaturesPtr smoothed;  ///< Output of smooth_curvature; null: not run on this mesh.
+  std::optional<Step> simplify;
+  std::optional<Step> swap_edges;
   std::optional<Step> find_sharp_lines;
+  std::optional<Step> equilateralize;
   std::optional<Step> smooth_curvature;
   std::optional<Step> find_partitions;
   std::uint32_t next_id = 1;  ///< Of the next line or partition; never goes back.
@@ -63,6 +78,13 @@ struct Performed {
 std::string hash_of(const Document& document);
 
 /// The labels carried to the faces of scan->mesh: one per face, 0 where unassigned or deleted.
+///
+/// A face of the scan takes the label of the nearest face of the working mesh (by its centre),
+/// looked for only among the faces that answer for its vertices, those round the vertices of it
+/// that are still there, and their neighbours. So labels cannot leak to a sheet that is near in
+/// space but far on the surface; and since the front never crosses a sharp line and the lines are
+/// edges of the working mesh, a face takes the label of the side of the line on which its centre
+/// lies. Equally near faces: the one whose normal agrees better, then the lower number.
 std::vector<std::uint32_t> labels_on_scan(const Document& document);
 
 /// Bytes that `document` holds and `base` does not share (as the history's budget counts them).

@@ -15,12 +15,10 @@ constexpr const char* version_key = "version";
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 6> table{open_operation,
-                                                  flip_orientation_operation,
-                                                  delete_faces_operation,
-                                                  find_sharp_lines_operation,
-                                                  smooth_curvature_operation,
-                                                  find_partitions_operation};
+  static const std::array<OperationKind, 9> table{
+      open_operation,           flip_orientation_operation, delete_faces_operation,
+      simplify_operation,       swap_edges_operation,       find_sharp_lines_operation,
+      equilateralize_operation, smooth_curvature_operation, find_partitions_operation};
   return table;
 }
 

@@ -1,7 +1,6 @@
 #include "core/edge_swapping/swap_engine.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "core/simplification/simplify.h"
 

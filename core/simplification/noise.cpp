@@ -97,6 +97,6 @@ double estimate_noise(const Mesh& mesh) {
   return std::sqrt(*middle);
 }
 
-double default_error_zone(const Mesh& mesh) { return rounded(estimate_noise(mesh), 2); }
+double default_error_zone(const Mesh& mesh) { return rounded(2.0 * estimate_noise(mesh), 2); }
 
 }  // namespace arris

@@ -11,6 +11,11 @@
 namespace arris {
 
 /// What makes one triangulation of a star better than another (section 4.1, "remeshing schemes").
+/// Measured on the sample mould, a block and fandisk against their clean twins (error zone twice
+/// the noise): all three leave as many vertices to 3 %. The mean error of the normals is least with
+/// the area (4.56, 6.4, 21.2 degrees; largest angle 4.74, 6.6, 22.7; flat 4.73, 7.0, 22.9). But on
+/// a plate of a million faces with a zone of five times the noise the area makes so many big stars
+/// that it takes twice as long as flat, which is the default for that.
 enum class StarCost : std::uint8_t {
   flat,   ///< Least sum of |beta| over the new and the bordering edges.
   angle,  ///< Smallest largest angle of the new faces.

@@ -80,6 +80,8 @@ class Operations : public ::testing::Test {
         {"delete_faces", {{"box", {-20, -1, -9, 20, 15, 9}}, {"side", "outside"}}},
         {"find_sharp_lines", json::object()},
         {"find_sharp_lines", {{"angle", 25}, {"parallel_distance", 2}, {"bridge_gap", 1.5}}},
+        {"smooth_curvature", json::object()},
+        {"smooth_curvature", {{"passes", 4}}},
         {"find_partitions", json::object()},
         {"find_partitions",
          {{"criterion", "ikabs"}, {"intervals", {{0, 0.5}, {0.5, nullptr}}}, {"min_faces", 2}}}};
@@ -143,6 +145,7 @@ TEST_F(Operations, DefaultsAreComplete) {
   EXPECT_EQ(
       names({"find_sharp_lines", json::object()}),
       (Names{"angle", "candidates", "min_length", "parallel_distance", "bridge_gap", "version"}));
+  EXPECT_EQ(names({"smooth_curvature", json::object()}), (Names{"passes", "version"}));
   EXPECT_EQ(names({"find_partitions", json::object()}),
             (Names{"criterion", "intervals", "min_faces", "fill_holes", "version"}));
 }
@@ -201,6 +204,9 @@ TEST_F(Operations, FaultsAreSentences) {
       {{"find_sharp_lines", {{"angel", 30}}}, "angel"},
       {{"find_sharp_lines", {{"version", 99}}}, "99"},
       {{"find_sharp_lines", {{"version", "new"}}}, "version"},
+      {{"smooth_curvature", {{"passes", 0}}}, "passes"},
+      {{"smooth_curvature", {{"passes", "some"}}}, "passes"},
+      {{"smooth_curvature", {{"radius", 2}}}, "radius"},
       {{"find_partitions", {{"criterion", "gauss"}}}, "gauss"},
       {{"find_partitions", {{"criterion", 3}}}, "criterion"},
       {{"find_partitions", {{"intervals", 3}}}, "intervals"},
@@ -329,8 +335,14 @@ TEST_F(Operations, StepsKnowWhenAnEarlierOneChanged) {
   EXPECT_EQ(document.find_sharp_lines->parameters["angle"], 40);
   document = applied(document, {"find_partitions", json::object()});
   EXPECT_FALSE(document.find_partitions->out_of_date);
+  document = applied(document, {"smooth_curvature", json::object()});
+  EXPECT_FALSE(document.smooth_curvature->out_of_date);
+  EXPECT_TRUE(document.find_partitions->out_of_date);
+  document = applied(document, {"find_sharp_lines", {{"angle", 45}}});
+  EXPECT_TRUE(document.smooth_curvature->out_of_date);
   document = applied(document, {"delete_faces", {{"components_under", 100}}});
   EXPECT_TRUE(document.find_sharp_lines->out_of_date);
+  EXPECT_TRUE(document.smooth_curvature->out_of_date);
   EXPECT_TRUE(document.find_partitions->out_of_date);
   EXPECT_TRUE(document.partitions.partitions.empty());
   EXPECT_TRUE(document.partitions.labels.empty());
@@ -488,6 +500,23 @@ TEST_F(Operations, FlippedPartGivesTheSameLinesAndPartitions) {
   }
 }
 
+TEST_F(Operations, FlippedTwiceGoesOnAsIfNeverFlipped) {
+  // Whatever was run before, out of date or not: equal hashes must mean equal futures.
+  const Operation flip{"flip_orientation", json::object()};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Document document = document_of(random_terrain(20, seed));
+    for (const Operation& operation : {Operation{"find_sharp_lines", {{"angle", 20}}},
+                                       Operation{"smooth_curvature", {{"passes", 3}}},
+                                       Operation{"find_sharp_lines", {{"angle", 60}}},
+                                       Operation{"find_partitions", json::object()}})
+      document = applied(document, operation);
+    const Document twice = applied(applied(document, flip), flip);
+    EXPECT_EQ(hash_of(twice), hash_of(document)) << "seed " << seed;
+    const Operation next{"find_partitions", {{"intervals", {{0, 0.5}, {0.5, nullptr}}}}};
+    EXPECT_EQ(hash_of(applied(twice, next)), hash_of(applied(document, next))) << "seed " << seed;
+  }
+}
+
 // ---- equality ----
 
 TEST_F(Operations, SameOperationsGiveTheSameHashOnAnyNumberOfThreads) {
@@ -502,6 +531,7 @@ TEST_F(Operations, SameOperationsGiveTheSameHashOnAnyNumberOfThreads) {
           Operation{"flip_orientation", json::object()},
           Operation{"delete_faces", {{"box", {0, 0, -99, 40, 40, 99}}}},
           Operation{"find_sharp_lines", {{"angle", 35}}},
+          Operation{"smooth_curvature", json::object()},
           Operation{"find_partitions", {{"criterion", "ikabs"}}}}) {
       document = applied(document, operation);
       hashes.push_back(hash_of(document));

@@ -43,6 +43,7 @@ Operation random_operation(const Document& document, Random& random, const std::
       if (random.bits() % 4 == 0) return {"open", {{"file", path}}};
       return {"delete_faces", {{"components_under", 1 + random.bits() % 20}}};
     case 4:
+      return {"smooth_curvature", {{"passes", 1 + random.bits() % 3}}};
     case 5:
     case 6:
       return {"find_sharp_lines",

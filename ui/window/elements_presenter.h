@@ -29,6 +29,7 @@ class ElementsPresenter : public QObject {
   using Ids = std::unordered_set<std::uint32_t>;
   const Ids& selected_lines() const { return lines_; }
   const Ids& selected_partitions() const { return partitions_; }
+  const Ids& selected_boundaries() const { return boundaries_; }  ///< Numbers from 1.
   void clear_selection();
   void zoom_to_selection();
 

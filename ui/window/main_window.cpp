@@ -151,6 +151,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(elements_, &ElementsPresenter::selection_changed, this, [this] {
     const char* name = !elements_->selected_lines().empty()        ? "lines"
                        : !elements_->selected_partitions().empty() ? "partitions"
+                       : !elements_->selected_boundaries().empty() ? "boundaries"
                                                                    : nullptr;
     if (name) findChild<QDockWidget*>(name)->raise();
   });

@@ -22,10 +22,13 @@ QString counted(std::size_t count, const QString& one, const QString& many) {
 }
 
 /// The steps that can be run, in the order of figure 2.
-constexpr const char* chain[] = {"find_sharp_lines", "smooth_curvature", "find_partitions"};
+constexpr const char* chain[] = {"simplify",       "swap_edges",       "find_sharp_lines",
+                                 "equilateralize", "smooth_curvature", "find_partitions"};
 
-/// Never run unless asked for: it smears the noise of a scan that was not simplified.
-bool is_optional(std::string_view step) { return step == "smooth_curvature"; }
+/// Never run unless asked for: lines and partitions of a scan can be had without.
+bool is_optional(std::string_view step) {
+  return step != "find_sharp_lines" && step != "find_partitions";
+}
 
 /// Whether "run all that is out of date" means this step.
 bool wants_run(const Document& document, const char* name) {
@@ -33,13 +36,12 @@ bool wants_run(const Document& document, const char* name) {
   return step ? step->out_of_date : !is_optional(name);
 }
 
-StepCard later(const QString& name, const QString& title, const QString& tooltip) {
-  StepCard card;
-  card.name = name;
-  card.title = title;
-  card.tooltip = tooltip;
-  card.state = StepState::unavailable;
-  return card;
+StepCard card(const QString& name, const QString& title, const QString& tooltip) {
+  StepCard result;
+  result.name = name;
+  result.title = title;
+  result.tooltip = tooltip;
+  return result;
 }
 
 StepParameter real(const QString& key, const QString& label, const QString& tooltip, double value,
@@ -62,6 +64,16 @@ StepParameter whole(const QString& key, const QString& label, const QString& too
   p.kind = StepParameter::Kind::whole;
   p.value = value;
   return p;
+}
+
+/// "11,730 → 5,266 vertices"
+QString vertices_text(const Mesh& before, const Mesh& after) {
+  const auto used = [](const Mesh& mesh) {
+    std::size_t count = 0;
+    for (VertexId v = 0; v < mesh.vertex_count(); ++v) count += !mesh.is_isolated(v);
+    return QLocale(QLocale::English).toString(static_cast<qulonglong>(count));
+  };
+  return used(before) + " → " + used(after) + " " + QObject::tr("vertices");
 }
 
 }  // namespace
@@ -149,13 +161,17 @@ void StepsPresenter::refresh() {
     open.time = seconds_text(session_->seconds_of("open"));
   }
   cards.push_back(open);
-  cards.push_back(later("simplify", tr("Simplification"),
-                        tr("Removes vertices inside error zones (section 4.1). Comes with a later "
-                           "version.")));
-  cards.push_back(later("swap_edges", tr("Edge swapping"),
-                        tr("Swaps edges so that sharp lines run along edges (section 4.2). Comes "
-                           "with a later version.")));
-
+  StepCard simplify =
+      card("simplify", tr("Simplification"),
+           tr("Removes vertices inside error zones, which takes out the noise (section 4.1). Every "
+              "vertex of the scan stays within the zone's radius of the surface."));
+  StepCard swap = card("swap_edges", tr("Edge swapping"),
+                       tr("Swaps edges, inside the error zones, so that sharp lines run along "
+                          "edges (section 4.2)."));
+  StepCard equilateral =
+      card("equilateralize", tr("Equilateralisation"),
+           tr("Swaps edges, inside the error zones, so that faces are nearly equilateral (section "
+              "4.3). Sharp lines stay."));
   StepCard lines;
   lines.name = "find_sharp_lines";
   lines.title = tr("Sharp lines");
@@ -174,8 +190,30 @@ void StepsPresenter::refresh() {
              : step->out_of_date ? StepState::out_of_date
                                  : StepState::done;
     };
-    const nlohmann::json p = session_->parameters("find_sharp_lines");
     const double longest = 1000.0 * std::max(1.0, document.mesh->diagonal());
+    const nlohmann::json z = session_->parameters("simplify");
+    simplify.state = state(document.simplify);
+    simplify.time = seconds_text(session_->seconds_of("simplify"));
+    simplify.parameters = {
+        real("error_zone", tr("Error zone"),
+             tr("Radius of the sphere round each vertex of the scan that the surface has to meet. "
+                "The default is the noise of the scan."),
+             z.value("error_zone", 0.0), 0.0, longest, 6, " mm"),
+        real("max_edge_length", tr("Longest edge"),
+             tr("No new edge becomes longer than this, so that flat areas stay populated; 0: no "
+                "limit."),
+             z.value("max_edge_length", 0.0), 0.0, longest, 6, " mm")};
+    if (document.simplified.mesh)
+      simplify.result =
+          vertices_text(*document.opened.mesh, *document.simplified.mesh) +
+          tr(", all within %1 mm")
+              .arg(QString::fromStdString(number_text(z.value("error_zone", 0.0), 3)));
+    swap.state = state(document.swap_edges);
+    swap.time = seconds_text(session_->seconds_of("swap_edges"));
+    equilateral.state = state(document.equilateralize);
+    equilateral.time = seconds_text(session_->seconds_of("equilateralize"));
+
+    const nlohmann::json p = session_->parameters("find_sharp_lines");
     lines.state = state(document.find_sharp_lines);
     lines.time = seconds_text(session_->seconds_of("find_sharp_lines"));
     lines.parameters = {
@@ -252,10 +290,10 @@ void StepsPresenter::refresh() {
           tr("%1 % of the area")
               .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)));
   }
+  cards.push_back(simplify);
+  cards.push_back(swap);
   cards.push_back(lines);
-  cards.push_back(later("equilateralize", tr("Equilateralisation"),
-                        tr("Swaps edges so that faces are nearly equilateral (section 4.3). Comes "
-                           "with a later version.")));
+  cards.push_back(equilateral);
   cards.push_back(smoothing);
   cards.push_back(partitions);
   panel_->set_cards(cards);

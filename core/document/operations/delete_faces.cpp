@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 #include "core/mesh/build_mesh.h"
 
@@ -32,8 +33,8 @@ Result<nlohmann::json> resolve_delete(const Document& document, const nlohmann::
           reader.fault("faces", "a list of faces [a, b, c] by vertex id");
           break;
         }
-        if (!document.mesh->find_face({face[0], face[1], face[2]})) {
-          reader.fault("faces", "faces of the mesh; it has none with vertices " + face.dump());
+        if (!document.opened.mesh->find_face({face[0], face[1], face[2]})) {
+          reader.fault("faces", "faces of the scan; it has none with vertices " + face.dump());
           break;
         }
       }
@@ -92,7 +93,7 @@ std::vector<bool> chosen_faces(const Mesh& mesh, const nlohmann::json& parameter
 
 Result<Document> apply_delete(const Document& document, const nlohmann::json& parameters,
                               const Context& context) {
-  const Mesh& mesh = *document.mesh;
+  const Mesh& mesh = *document.opened.mesh;
   const std::vector<bool> chosen = chosen_faces(mesh, parameters);
   const std::size_t count =
       static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), true));
@@ -119,8 +120,12 @@ Result<Document> apply_delete(const Document& document, const nlohmann::json& pa
     scan_faces->push_back(document.scan_faces ? (*document.scan_faces)[f] : f);
   }
   Document result = document;
-  if (const auto changed = change_mesh(result, built->mesh, context.part(0.5, 1.0)); !changed)
+  outdate_after(result, "open");
+  if (const auto changed =
+          change_mesh(result, {built->mesh, nullptr, nullptr}, context.part(0.5, 1.0));
+      !changed)
     return tl::unexpected<Error>(changed.error());
+  result.opened = {result.mesh, result.curvatures, nullptr};
   result.scan_faces = std::move(scan_faces);
   return result;
 }
@@ -133,30 +138,6 @@ std::string gist_delete(const nlohmann::json& parameters) {
 }
 
 }  // namespace
-
-Result<void> change_mesh(Document& document, MeshPtr mesh, const Context& context) {
-  Result<CurvaturesPtr> curvatures =
-      compute_curvatures(*mesh, document.curvatures->options, context);
-  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
-  if (!document.lines.edges.empty()) {
-    std::vector<Origin> edges(mesh->edge_count(), Origin::none);
-    for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
-      if (!document.lines.is_sharp(e)) continue;
-      const EdgeVertices& v = document.mesh->edge(e);
-      if (const auto same = mesh->find_edge(v[0], v[1]); same && !mesh->is_border_edge(*same))
-        edges[*same] = document.lines.edges[e];
-    }
-    document.lines = relink_lines(*mesh, **curvatures, edges, document.lines, document.next_id);
-  }
-  document.mesh = std::move(mesh);
-  document.curvatures = std::move(*curvatures);
-  document.partitions = {};
-  if (document.find_sharp_lines) document.find_sharp_lines->out_of_date = true;
-  document.smoothed = nullptr;
-  if (document.smooth_curvature) document.smooth_curvature->out_of_date = true;
-  if (document.find_partitions) document.find_partitions->out_of_date = true;
-  return {};
-}
 
 const OperationKind delete_faces_operation{"delete_faces", "Delete faces", 1,
                                            resolve_delete, apply_delete,   gist_delete};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/number_text.h"
+#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 
 namespace arris {
@@ -10,11 +11,12 @@ namespace arris {
 namespace {
 
 Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::json& given) {
-  const Mesh& mesh = *document.mesh;
+  const Stage base = stage_before(document, "find_sharp_lines");
+  const Mesh& mesh = *base.mesh;
   const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
   const SharpLineOptions defaults;
   ParameterReader reader("find_sharp_lines", given);
-  reader.real("angle", default_sharp_angle(mesh, *document.curvatures), 0.1, 179.9);
+  reader.real("angle", default_sharp_angle(mesh, *base.curvatures), 0.1, 179.9);
   reader.whole("candidates", defaults.candidates, 1, 32);
   reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
   reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);
@@ -30,15 +32,19 @@ Result<Document> apply_lines(const Document& document, const nlohmann::json& par
   options.min_length = parameters.at("min_length");
   options.parallel_distance = parameters.at("parallel_distance");
   options.bridge_gap = parameters.at("bridge_gap");
-  const Result<std::vector<Origin>> edges =
-      find_sharp_edges(*document.mesh, *document.curvatures, options, context);
-  if (!edges) return tl::unexpected<Error>(edges.error());
   Document result = document;
+  outdate_after(result, "find_sharp_lines");
+  // From the output of the steps before: an equilateralised mesh gives way.
+  if (const auto changed =
+          change_mesh(result, stage_before(document, "find_sharp_lines"), context.part(0.0, 0.1));
+      !changed)
+    return tl::unexpected<Error>(changed.error());
+  const Result<std::vector<Origin>> edges =
+      find_sharp_edges(*result.mesh, *result.curvatures, options, context.part(0.1, 1.0));
+  if (!edges) return tl::unexpected<Error>(edges.error());
   result.lines =
-      relink_lines(*document.mesh, *document.curvatures, *edges, document.lines, result.next_id);
+      relink_lines(*result.mesh, *result.curvatures, *edges, document.lines, result.next_id);
   result.find_sharp_lines = Step{parameters, false};
-  if (result.smooth_curvature) result.smooth_curvature->out_of_date = true;
-  if (result.find_partitions) result.find_partitions->out_of_date = true;
   return result;
 }
 

@@ -1,6 +1,8 @@
 #include "core/curvature_smoothing/smooth_curvature.h"
+#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -12,27 +14,45 @@ Result<nlohmann::json> resolve_flip(const Document&, const nlohmann::json& given
   return ParameterReader("flip_orientation", given).finish();
 }
 
-/// Faces keep their numbers and sharp edges stay sharp; convex becomes concave. Partitions stay:
-/// Kabs and IKabs do not depend on the orientation.
-Result<Document> apply_flip(const Document& document, const nlohmann::json&,
-                            const Context& context) {
-  std::vector<Triangle> triangles = document.mesh->triangles();
+Result<Stage> flipped(const Stage& stage, const Context& context) {
+  if (!stage.mesh) return Stage{};
+  std::vector<Triangle> triangles = stage.mesh->triangles();
   for (Triangle& t : triangles) std::swap(t[1], t[2]);
-  const auto points = document.mesh->points();
+  const auto points = stage.mesh->points();
   Result<MeshPtr> mesh = Mesh::create({points.begin(), points.end()}, std::move(triangles));
   if (!mesh) return tl::unexpected<Error>(mesh.error());
-  Result<CurvaturesPtr> curvatures =
-      compute_curvatures(**mesh, document.curvatures->options, context);
+  Result<CurvaturesPtr> curvatures = compute_curvatures(**mesh, stage.curvatures->options, context);
   if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  return Stage{std::move(*mesh), std::move(*curvatures), stage.zones};
+}
+
+/// Faces and edges keep their numbers, so lines, zones and partitions stay: Kabs and IKabs do not
+/// depend on the orientation. Convex becomes concave.
+Result<Document> apply_flip(const Document& document, const nlohmann::json&,
+                            const Context& context) {
   Document result = document;
-  result.mesh = std::move(*mesh);
-  result.curvatures = std::move(*curvatures);
-  if (!document.lines.edges.empty()) {
-    std::vector<Origin> edges(result.mesh->edge_count());  // edges have the same numbers
-    for (EdgeId e = 0; e < edges.size(); ++e) edges[e] = document.lines.edges[e];
-    result.lines =
-        relink_lines(*result.mesh, *result.curvatures, edges, document.lines, result.next_id);
+  Stage current{document.mesh, document.curvatures, document.zones};
+  std::vector<std::pair<MeshPtr, Stage>> done;  // outputs share meshes
+  for (Stage* stage : {&result.opened, &result.simplified, &result.swapped, &current}) {
+    const auto known = std::find_if(done.begin(), done.end(),
+                                    [&](const auto& d) { return d.first == stage->mesh; });
+    if (known != done.end()) {
+      stage->mesh = known->second.mesh;
+      stage->curvatures = known->second.curvatures;
+      continue;
+    }
+    const MeshPtr before = stage->mesh;
+    Result<Stage> turned = flipped(*stage, context);
+    if (!turned) return tl::unexpected<Error>(turned.error());
+    *stage = std::move(*turned);
+    done.emplace_back(before, *stage);
   }
+  result.mesh = current.mesh;
+  result.curvatures = current.curvatures;
+  if (!document.lines.edges.empty())
+    result.lines =
+        relink_lines(*result.mesh, *result.curvatures, sharp_edges_on(document, *result.mesh),
+                     document.lines, result.next_id);
   if (result.smoothed) {
     SmoothCurvatureOptions options;
     options.passes = result.smooth_curvature->parameters.at("passes");

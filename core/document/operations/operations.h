@@ -14,9 +14,8 @@ extern const OperationKind find_sharp_lines_operation;
 extern const OperationKind smooth_curvature_operation;
 extern const OperationKind find_partitions_operation;
 
-/// Replaces the mesh of `document`. Sharp edges that the new mesh still has inside stay, the lines
-/// are linked again; partitions go; both steps are out of date. Ids of vertices must be the same in
-/// both.
-Result<void> change_mesh(Document& document, MeshPtr mesh, const Context& context);
+extern const OperationKind simplify_operation;
+extern const OperationKind swap_edges_operation;
+extern const OperationKind equilateralize_operation;
 
 }  // namespace arris

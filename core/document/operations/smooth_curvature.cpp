@@ -1,5 +1,6 @@
 #include "core/curvature_smoothing/smooth_curvature.h"
 
+#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 
 namespace arris {
@@ -22,7 +23,7 @@ Result<Document> apply_smooth(const Document& document, const nlohmann::json& pa
   Document result = document;
   result.smoothed = std::move(*smoothed);
   result.smooth_curvature = Step{parameters, false};
-  if (result.find_partitions) result.find_partitions->out_of_date = true;
+  outdate_after(result, "smooth_curvature");
   return result;
 }
 

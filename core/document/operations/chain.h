@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/document/document.h"
+
+/// The steps of figure 2 as a chain (document.md, rule 3), for the operations.
+namespace arris {
+
+inline constexpr std::array<std::string_view, 6> chain{"simplify",         "swap_edges",
+                                                       "find_sharp_lines", "equilateralize",
+                                                       "smooth_curvature", "find_partitions"};
+
+/// The output that `step` starts from: of the last step before it that has one.
+Stage stage_before(const Document& document, std::string_view step);
+
+/// Makes `stage` the current mesh (its curvatures are computed where it has none). Sharp edges that
+/// the new mesh still has inside stay and the lines are linked again; smoothed curvatures and
+/// partitions go. Nothing happens where it is the current mesh already. Errors: cancelled.
+Result<void> change_mesh(Document& document, Stage stage, const Context& context);
+
+/// The sharp edges of the document on another mesh with the same vertices, as far as it has them
+/// inside.
+std::vector<Origin> sharp_edges_on(const Document& document, const Mesh& mesh);
+
+/// Marks what comes after `step` as out of date (everything for "open") and drops the outputs of
+/// later steps that change the mesh.
+void outdate_after(Document& document, std::string_view step);
+
+}  // namespace arris

@@ -1,0 +1,123 @@
+// simplify, swap_edges and equilateralize: the phases of figure 2 that change the mesh.
+
+#include "core/base/number_text.h"
+#include "core/document/operations/chain.h"
+#include "core/document/operations/operations.h"
+#include "core/edge_swapping/equilateralize.h"
+#include "core/edge_swapping/swap_edges.h"
+#include "core/simplification/noise.h"
+#include "core/simplification/simplify.h"
+
+namespace arris {
+
+namespace {
+
+/// The sharp edges that a step starting from `base` must leave alone.
+ChunkedArray<Origin> locked_edges(const Document& document, const Mesh& base) {
+  if (document.lines.edges.empty()) return {};
+  return {sharp_edges_on(document, base), {}};
+}
+
+/// Takes the result of a phase over as the current mesh; `output` keeps it for the steps after.
+Result<Document> take(const Document& document, const Stage& base, Prepared prepared,
+                      std::string_view step, std::optional<Step> Document::*record,
+                      Stage Document::*output, const nlohmann::json& parameters,
+                      const Context& context) {
+  Document result = document;
+  outdate_after(result, step);
+  Stage stage{std::move(prepared.mesh), nullptr, std::move(prepared.zones)};
+  if (stage.mesh->hash() == base.mesh->hash()) {  // nothing to do was found
+    stage.mesh = base.mesh;
+    stage.curvatures = base.curvatures;
+  }
+  if (const auto changed = change_mesh(result, stage, context); !changed)
+    return tl::unexpected<Error>(changed.error());
+  result.zones = stage.zones;
+  if (output) result.*output = {result.mesh, result.curvatures, result.zones};
+  result.*record = Step{parameters, false};
+  return result;
+}
+
+Result<nlohmann::json> resolve_simplify(const Document& document, const nlohmann::json& given) {
+  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  ParameterReader reader("simplify", given);
+  const bool has_zone = reader.has("error_zone") && !given["error_zone"].is_null();
+  reader.real("error_zone", has_zone ? 0.0 : default_error_zone(*document.opened.mesh), 0.0,
+              longest);
+  reader.real("max_edge_length", 0.0, 0.0, longest);
+  reader.choice("cost", "flat", {"flat", "angle", "area"});
+  reader.whole("target_vertices", 0, 0, 0x7FFFFFFF);
+  reader.flag("again", false);
+  return reader.finish();
+}
+
+Result<Document> apply_simplify(const Document& document, const nlohmann::json& parameters,
+                                const Context& context) {
+  SimplifyOptions options;
+  options.error_zone = parameters.at("error_zone").get<double>();
+  options.max_edge_length = parameters.at("max_edge_length");
+  options.target_vertices = parameters.at("target_vertices");
+  const std::string cost = parameters.at("cost");
+  options.cost = cost == "flat"    ? StarCost::flat
+                 : cost == "angle" ? StarCost::angle
+                                   : StarCost::area;
+  // Again: from the current mesh, as section 4.1 allows later in the chain; found lines stay then.
+  const Stage base = parameters.at("again")
+                         ? Stage{document.mesh, document.curvatures, document.zones}
+                         : stage_before(document, "simplify");
+  const ChunkedArray<Origin> locked =
+      base.mesh == document.mesh ? locked_edges(document, *base.mesh) : ChunkedArray<Origin>();
+  Result<Prepared> prepared =
+      simplify(*base.mesh, base.zones, locked, options, context.part(0.0, 0.9));
+  if (!prepared) return tl::unexpected<Error>(prepared.error());
+  return take(document, base, std::move(*prepared), "simplify", &Document::simplify,
+              &Document::simplified, parameters, context.part(0.9, 1.0));
+}
+
+std::string gist_simplify(const nlohmann::json& parameters) {
+  if (!parameters.contains("error_zone")) return "";
+  return number_text(parameters["error_zone"].get<double>(), 3) + " mm";
+}
+
+Result<nlohmann::json> resolve_swap(const Document&, const nlohmann::json& given) {
+  return ParameterReader("swap_edges", given).finish();
+}
+
+Result<Document> apply_swap(const Document& document, const nlohmann::json& parameters,
+                            const Context& context) {
+  const Stage base = stage_before(document, "swap_edges");
+  const ChunkedArray<Origin> locked =
+      base.mesh == document.mesh ? locked_edges(document, *base.mesh) : ChunkedArray<Origin>();
+  Result<Prepared> prepared =
+      swap_edges(*base.mesh, base.zones, locked, {}, context.part(0.0, 0.9));
+  if (!prepared) return tl::unexpected<Error>(prepared.error());
+  return take(document, base, std::move(*prepared), "swap_edges", &Document::swap_edges,
+              &Document::swapped, parameters, context.part(0.9, 1.0));
+}
+
+Result<nlohmann::json> resolve_equilateralize(const Document&, const nlohmann::json& given) {
+  return ParameterReader("equilateralize", given).finish();
+}
+
+Result<Document> apply_equilateralize(const Document& document, const nlohmann::json& parameters,
+                                      const Context& context) {
+  const Stage base = stage_before(document, "equilateralize");
+  Result<Prepared> prepared = equilateralize(
+      *base.mesh, base.zones, locked_edges(document, *base.mesh), {}, context.part(0.0, 0.9));
+  if (!prepared) return tl::unexpected<Error>(prepared.error());
+  return take(document, base, std::move(*prepared), "equilateralize", &Document::equilateralize,
+              nullptr, parameters, context.part(0.9, 1.0));
+}
+
+std::string no_gist(const nlohmann::json&) { return ""; }
+
+}  // namespace
+
+const OperationKind simplify_operation{"simplify",       "Simplify",     1,
+                                       resolve_simplify, apply_simplify, gist_simplify};
+const OperationKind swap_edges_operation{"swap_edges", "Swap edges", 1,
+                                         resolve_swap, apply_swap,   no_gist};
+const OperationKind equilateralize_operation{"equilateralize",       "Equilateralise",     1,
+                                             resolve_equilateralize, apply_equilateralize, no_gist};
+
+}  // namespace arris
