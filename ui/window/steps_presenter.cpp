@@ -150,7 +150,7 @@ void StepsPresenter::refresh() {
   open.runnable = false;
   open.tooltip = tr("The loaded mesh and what had to be mended in it.");
   if (!document.empty()) {
-    const Mesh& mesh = *document.mesh;
+    const Mesh& mesh = *document.opened.mesh;
     open.state = StepState::done;
     open.result =
         counted(mesh.face_count(), tr("face"), tr("faces")) + ", " +
