@@ -1,6 +1,7 @@
 // arris-cli: the core without a window.
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -270,7 +271,8 @@ bool parse_interval(const std::string& text, nlohmann::json& interval) {
   const std::string low = text.substr(0, colon), high = text.substr(colon + 1);
   if (!low.empty() && !number(low, min)) return false;
   if (!high.empty() && !number(high, max)) return false;
-  if (min < 0.0 || (!high.empty() && max <= min)) return false;
+  if (!std::isfinite(min) || !std::isfinite(max) || min < 0.0 || (!high.empty() && max <= min))
+    return false;
   interval = {min, high.empty() ? nlohmann::json() : nlohmann::json(max)};
   return true;
 }
@@ -342,7 +344,8 @@ int main(int argc, char** argv) {
   segment_command
       ->add_option("--interval", intervals,
                    "MIN:MAX of the criterion; either may be left out; may be repeated")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
   CLI::Option* faces_option =
       segment_command->add_option("--min-faces", min_faces, "Smaller partitions are not kept")
           ->check(CLI::PositiveNumber);
@@ -362,6 +365,9 @@ int main(int argc, char** argv) {
   nlohmann::json lines = nlohmann::json::object(), partitions = nlohmann::json::object();
   try {
     app.parse(argc, argv);
+    if (std::isnan(sharp_angle) || std::isnan(min_length) || std::isnan(error_zone) ||
+        std::isnan(max_edge))
+      throw CLI::ValidationError("options", "a number was expected, not nan");
     for (const std::string& text : intervals) {
       nlohmann::json interval;
       if (!parse_interval(text, interval))

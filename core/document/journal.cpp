@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <unordered_map>
 
 #ifdef _WIN32
@@ -26,6 +27,8 @@ auto write_some(int file, const char* data, std::size_t size) {
   return _write(file, data, static_cast<unsigned>(size));
 }
 int make_durable(int file) { return _commit(file); }
+long long size_of(int file) { return _filelengthi64(file); }
+int cut_to(int file, long long size) { return _chsize_s(file, size); }
 void close_file(int file) { _close(file); }
 #else
 int open_for_append(const char* path) {
@@ -33,6 +36,8 @@ int open_for_append(const char* path) {
 }
 auto write_some(int file, const char* data, std::size_t size) { return ::write(file, data, size); }
 int make_durable(int file) { return ::fsync(file); }
+long long size_of(int file) { return ::lseek(file, 0, SEEK_END); }
+int cut_to(int file, long long size) { return ::ftruncate(file, size); }
 void close_file(int file) { ::close(file); }
 #endif
 
@@ -55,6 +60,15 @@ Result<std::shared_ptr<Journal>> Journal::open(const std::string& path) {
   if (file < 0)
     return fail("The journal " + path + " cannot be opened for writing: " + std::strerror(errno) +
                 ".");
+  // A last row that a crash cut short never counted; what is appended must not run into it.
+  std::ifstream before(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(before), {}};
+  const std::size_t whole = text.find_last_of('\n') + 1;  // npos + 1 is 0
+  if (whole < text.size() && cut_to(file, static_cast<long long>(whole)) != 0) {
+    close_file(file);
+    return fail("The journal " + path +
+                " ends in a row cut short that cannot be removed: " + std::strerror(errno) + ".");
+  }
   return std::shared_ptr<Journal>(new Journal(file, path));
 }
 
@@ -67,13 +81,17 @@ Result<void> Journal::append_head(std::uint32_t sequence) {
 }
 
 Result<void> Journal::append_line(const std::string& line) {
+  const long long before = size_of(file_);
   std::size_t done = 0;
   while (done < line.size()) {
     const auto written = write_some(file_, line.data() + done, line.size() - done);
     if (written < 0) {
       if (errno == EINTR) continue;
-      return fail("The journal " + path_ + " cannot be written: " + std::strerror(errno) +
-                  ". The edit was not made.");
+      const std::string reason = std::strerror(errno);
+      const bool cut = cut_to(file_, before) == 0;  // no half row for the next one to run into
+      return fail(
+          "The journal " + path_ + " cannot be written: " + reason +
+          (cut ? ". The edit was not made." : ". The edit was not made; close the session."));
     }
     done += static_cast<std::size_t>(written);
   }
@@ -108,7 +126,8 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
       return fail(where + "this is not a JSON object.");
     }
     const auto to_row = [&](const char* key) -> Result<std::uint32_t> {
-      if (!json[key].is_number_unsigned() || !row_of.contains(json[key].get<std::uint32_t>()))
+      if (!json[key].is_number_unsigned() || json[key].get<std::uint64_t>() > 0xFFFFFFFFu ||
+          !row_of.contains(json[key].get<std::uint32_t>()))
         return fail(where + "'" + key + "' names a row that is not there.");
       return row_of[json[key].get<std::uint32_t>()];
     };

@@ -16,7 +16,9 @@ const nlohmann::json* ParameterReader::take(const std::string& name) {
 void ParameterReader::fault(const std::string& name, const std::string& expected) {
   if (error_) return;
   const auto found = given_.find(name);
-  std::string value = found == given_.end() ? "nothing" : found->dump();
+  std::string value = found == given_.end()
+                          ? "nothing"
+                          : found->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (value.size() > 60) value = value.substr(0, 57) + "...";
   error_ = Error{operation_ + ": '" + name + "' is " + value + "; expected " + expected + "."};
 }

@@ -50,13 +50,15 @@ class Propagation {
     const auto first = std::partition_point(seeds_.begin(), seeds_.end(),
                                             [&](VertexId v) { return values_[v] > interval.max; });
     for (auto seed = first; seed != seeds_.end() && values_[*seed] >= interval.min; ++seed) {
-      FaceId start = no_id;  // the passing face with the lowest number round the seed
-      mesh_.for_ring(*seed, [&](HalfEdgeId h) {
-        const FaceId f = mesh_.face(h);
-        if (f < start && passes[f] && found_.labels[f] == unassigned) start = f;
-      });
-      if (start == no_id) continue;
-      propagate(start, interval, options, passes);
+      for (;;) {
+        FaceId start = no_id;  // the passing face with the lowest number round the seed
+        mesh_.for_ring(*seed, [&](HalfEdgeId h) {
+          const FaceId f = mesh_.face(h);
+          if (f < start && passes[f] && found_.labels[f] == unassigned) start = f;
+        });
+        if (start == no_id) break;  // faces that fail may part those round one seed
+        propagate(start, interval, options, passes);
+      }
     }
   }
 
@@ -144,7 +146,7 @@ class Propagation {
     double longest = -1.0;
     HalfEdgeId h = mesh_.face_half_edge(f);
     for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
-      if (lines_.is_sharp(h >> 1)) continue;
+      if (lines_.is_sharp(h >> 1) || mesh_.is_border_edge(h >> 1)) continue;
       const double length = mesh_.edge_length(h >> 1);
       if (length > longest) {
         longest = length;
@@ -155,7 +157,7 @@ class Propagation {
   }
 
   void propagate(FaceId start, const CurvatureInterval& interval, const PartitionOptions& options,
-                 const std::vector<std::uint8_t>& passes) {
+                 std::vector<std::uint8_t>& passes) {
     const std::uint32_t label = static_cast<std::uint32_t>(found_.partitions.size() + 1);
     front_.assign(1, start);
     found_.labels[start] = label;
@@ -170,7 +172,10 @@ class Propagation {
       }
     }
     if (front_.size() < options.min_faces) {
-      for (const FaceId f : front_) found_.labels[f] = unassigned;
+      for (const FaceId f : front_) {
+        found_.labels[f] = unassigned;
+        passes[f] = 0;  // not to be tried again from its other vertices
+      }
       return;
     }
     Partition partition;

@@ -39,6 +39,7 @@ inline Document document_of(const Triangles& triangles) {
   document.scan = value_of(make_scan(std::move(file), "memory"));
   document.mesh = document.scan->mesh;
   document.curvatures = curvatures_of(*document.mesh);
+  document.opened = {document.mesh, document.curvatures, nullptr};
   return document;
 }
 

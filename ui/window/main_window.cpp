@@ -469,18 +469,16 @@ void MainWindow::offer_recovery() {
 }
 
 void MainWindow::open_sample() {
+  if (!may_leave_session()) return;
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   QDir().mkpath(folder);
   const QString path = folder + "/sample_mould.ply";
-  SampleMould mould = make_mould();
-  const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
-  Result<void> written = mesh ? write_ply(path.toStdString(), **mesh, {})
-                              : Result<void>(tl::unexpected<Error>(mesh.error()));
-  if (!written) {
-    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
-    return;
-  }
-  open(path);
+  session_->open_made(path, [file = path.toStdString()]() -> Result<void> {
+    SampleMould mould = make_mould();
+    const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
+    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    return write_ply(file, **mesh, {});
+  });
 }
 
 void MainWindow::set_field(Field field) {

@@ -95,7 +95,11 @@ void Session::open(const QString& path) {
   if (path.endsWith(".jsonl", Qt::CaseInsensitive))
     open_journal(path, false);
   else
-    open_scan(path);
+    open_scan(path, nullptr);
+}
+
+void Session::open_made(const QString& path, std::function<Result<void>()> make) {
+  open_scan(path, std::move(make));
 }
 
 void Session::recover(const QString& journal) { open_journal(journal, true); }
@@ -194,16 +198,19 @@ void Session::close() {
   journal_lock_.reset();
 }
 
-void Session::open_scan(const QString& path) {
+void Session::open_scan(const QString& path, std::function<Result<void>()> make) {
   if (busy_) return;
   cancel_preview();
   busy_ = true;
   stop_ = std::stop_source();
   emit busy_changed(true);
   const Operation operation{"open", {{"file", path.toStdString()}}};
-  start([this, operation, context = context_of_work()] {
+  start([this, operation, make = std::move(make), context = context_of_work()] {
     const auto begin = Clock::now();
-    auto performed = std::make_shared<Result<Performed>>(perform(Document{}, operation, context));
+    const Result<void> made = make ? make() : Result<void>();
+    auto performed = std::make_shared<Result<Performed>>(
+        made ? perform(Document{}, operation, context)
+             : Result<Performed>(tl::unexpected<Error>(made.error())));
     auto snapshot = std::make_shared<Snapshot>();
     if (*performed) *snapshot = snapshot_of((*performed)->document);
     const double seconds = seconds_since(begin);

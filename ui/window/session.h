@@ -49,6 +49,8 @@ class Session : public QObject {
   /// Opens a scan, or replays a session (*.jsonl), in a history of its own. The open part stays
   /// until the new one is there.
   void open(const QString& path);
+  /// The same, for a file that `make` writes first (on the worker thread).
+  void open_made(const QString& path, std::function<Result<void>()> make);
   /// Goes on with the journal that a crash left behind (see abandoned_journals()).
   void recover(const QString& journal);
   /// Journals of sessions that ended without being closed, newest first.
@@ -90,7 +92,7 @@ class Session : public QObject {
   void finish_work();
   void run_next();
   void start_preview();
-  void open_scan(const QString& path);
+  void open_scan(const QString& path, std::function<Result<void>()> make);
   void open_journal(const QString& path, bool go_on);
   /// From here on every edit is on disk before its result is shown.
   void start_journal(const QString& path);

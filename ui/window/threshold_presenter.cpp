@@ -131,10 +131,18 @@ void ThresholdPresenter::refresh() {
       targets.push_back({Target::Kind::interval_bound, bound});
     }
   }
-  histogram_->set_handles(handles);
   // During a drag operations go on from the document at mouse down, where the bound had its old
-  // value.
-  if (!dragging_) targets_ = std::move(targets);
+  // value; and the handles stay what they are, even where two bounds meet for a moment.
+  if (dragging_) {
+    const std::vector<ThresholdHandle>& held = histogram_->handles();
+    const bool same = std::equal(
+        handles.begin(), handles.end(), held.begin(), held.end(),
+        [](const ThresholdHandle& x, const ThresholdHandle& y) { return x.name == y.name; });
+    if (same) histogram_->set_handles(handles);
+    return;
+  }
+  histogram_->set_handles(handles);
+  targets_ = std::move(targets);
 }
 
 }  // namespace arris::ui

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/document/operations/chain.h"
@@ -43,7 +44,9 @@ Result<nlohmann::json> resolve_delete(const Document& document, const nlohmann::
   }
   if (reader.has("box")) {
     if (!box.is_array() || box.size() != 6 ||
-        !std::all_of(box.begin(), box.end(), [](const auto& x) { return x.is_number(); }))
+        !std::all_of(box.begin(), box.end(), [](const auto& x) {
+          return x.is_number() && std::isfinite(x.template get<double>());
+        }))
       reader.fault("box", "six numbers [x0, y0, z0, x1, y1, z1]");
     reader.set("box", box);
     reader.choice("side", "inside", {"inside", "outside"});

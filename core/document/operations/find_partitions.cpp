@@ -31,7 +31,7 @@ Result<nlohmann::json> resolve_partitions(const Document& document, const nlohma
       for (const auto& interval : intervals) {
         good = good && interval.is_array() && interval.size() == 2 && interval[0].is_number() &&
                (interval[1].is_number() || interval[1].is_null()) &&
-               interval[0].get<double>() >= 0.0 &&
+               std::isfinite(interval[0].get<double>()) && interval[0].get<double>() >= 0.0 &&
                (interval[1].is_null() || interval[1].get<double>() > interval[0].get<double>());
       }
     if (!good) reader.fault("intervals", interval_form);

@@ -11,7 +11,8 @@ namespace arris {
 namespace {
 
 Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::json& given) {
-  const Stage base = stage_before(document, "find_sharp_lines");
+  // Defaults come from the scan: a simplified mesh has sharp angles everywhere and long edges.
+  const Stage& base = document.opened;
   const Mesh& mesh = *base.mesh;
   const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
   const SharpLineOptions defaults;

@@ -4,9 +4,18 @@ namespace arris {
 
 namespace {
 
+bool is_utf8(const std::string& text) {
+  const std::string kept =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::ignore);
+  return nlohmann::json::parse(kept).get<std::string>() == text;
+}
+
 Result<nlohmann::json> resolve_open(const Document&, const nlohmann::json& given) {
   ParameterReader reader("open", given);
   const std::string file = reader.text("file", "");
+  // A journal and every report are UTF-8: a name that is not could not be written down.
+  if (!is_utf8(file))
+    return fail("open: the name of the file is not valid UTF-8; rename it, then open it again.");
   if (file.empty()) reader.fault("file", "the path of a mesh file");
   // Known only once the file is read; perform() adds it then.
   if (reader.has("hash")) reader.text("hash", "");
