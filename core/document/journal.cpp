@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <unordered_map>
@@ -60,14 +61,22 @@ Result<std::shared_ptr<Journal>> Journal::open(const std::string& path) {
   if (file < 0)
     return fail("The journal " + path + " cannot be opened for writing: " + std::strerror(errno) +
                 ".");
-  // A last row that a crash cut short never counted; what is appended must not run into it.
-  std::ifstream before(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(before), {}};
-  const std::size_t whole = text.find_last_of('\n') + 1;  // npos + 1 is 0
-  if (whole < text.size() && cut_to(file, static_cast<long long>(whole)) != 0) {
-    close_file(file);
-    return fail("The journal " + path +
-                " ends in a row cut short that cannot be removed: " + std::strerror(errno) + ".");
+  // What is appended must not run into a last row without its end: one that a crash cut short goes
+  // (it never counted), a whole one gets its end.
+  if (std::filesystem::is_regular_file(path)) {
+    std::ifstream before(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(before), {}};
+    const std::size_t whole = text.find_last_of('\n') + 1;  // npos + 1 is 0
+    const bool ends_well = whole == text.size();
+    const bool mended = ends_well || (nlohmann::json::accept(text.substr(whole))
+                                          ? write_some(file, "\n", 1) == 1
+                                          : cut_to(file, static_cast<long long>(whole)) == 0);
+    if (!mended) {
+      const std::string reason = std::strerror(errno);
+      close_file(file);
+      return fail("The journal " + path +
+                  " ends in a row cut short that cannot be mended: " + reason + ".");
+    }
   }
   return std::shared_ptr<Journal>(new Journal(file, path));
 }

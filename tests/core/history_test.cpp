@@ -45,6 +45,15 @@ Operation random_operation(const Document& document, Random& random, const std::
     case 4:
       return {"smooth_curvature", {{"passes", 1 + random.bits() % 3}}};
     case 5:
+      switch (random.bits() % 3) {
+        case 0:
+          return {"simplify",
+                  {{"error_zone", random.uniform(0.0, 0.1)}, {"again", random.bits() % 2 == 0}}};
+        case 1:
+          return {"swap_edges", json::object()};
+        default:
+          return {"equilateralize", json::object()};
+      }
     case 6:
       return {"find_sharp_lines",
               {{"angle", random.uniform(10.0, 70.0)}, {"parallel_distance", random.bits() % 3}}};

@@ -1,4 +1,3 @@
-#include "core/curvature_smoothing/smooth_curvature.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 
@@ -53,13 +52,14 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
     result.lines =
         relink_lines(*result.mesh, *result.curvatures, sharp_edges_on(document, *result.mesh),
                      document.lines, result.next_id);
-  if (result.smoothed) {
-    SmoothCurvatureOptions options;
-    options.passes = result.smooth_curvature->parameters.at("passes");
-    Result<CurvaturesPtr> smoothed =
-        smooth_curvatures(*result.mesh, *result.curvatures, result.lines, options, context);
-    if (!smoothed) return tl::unexpected<Error>(smoothed.error());
-    result.smoothed = std::move(*smoothed);
+  if (document.smoothed) {
+    // Not smoothed anew: the lines may have changed since, and flipping twice must change nothing.
+    auto turned = std::make_shared<Curvatures>(*document.smoothed);
+    for (std::vector<double>* values : {&turned->h_area, &turned->h, &turned->ih1, &turned->ih2})
+      for (double& value : *values) value = -value;
+    turned->beta = result.curvatures->beta;
+    turned->shape = result.curvatures->shape;
+    result.smoothed = std::move(turned);
   }
   return result;
 }
