@@ -117,14 +117,13 @@ Result<Prepared> WorkingMesh::finish() const {
   return result;
 }
 
-ChunkedArray<Origin> carry_sharp_edges(const Mesh& from, const ChunkedArray<Origin>& sharp,
-                                       const Mesh& to) {
-  if (sharp.empty()) return {};
-  ChunkedArray<Origin> result(to.edge_count(), Origin::none);
-  for (EdgeId e = 0; e < from.edge_count(); ++e) {
+std::vector<Origin> carry_sharp_edges(const Mesh& from, const ChunkedArray<Origin>& sharp,
+                                      const Mesh& to) {
+  std::vector<Origin> result(to.edge_count(), Origin::none);
+  for (EdgeId e = 0; e < sharp.size(); ++e) {
     if (sharp[e] == Origin::none) continue;
     const std::optional<EdgeId> same = to.find_edge(from.edge(e)[0], from.edge(e)[1]);
-    if (same) result.set(*same, sharp[e]);
+    if (same && !to.is_border_edge(*same)) result[*same] = sharp[e];
   }
   return result;
 }

@@ -152,8 +152,8 @@ class WorkingMesh {
   std::uint64_t vertices_before_ = 0;
 };
 
-/// The sharp edges of `from` that `to` has, too, as flags of `to`.
-ChunkedArray<Origin> carry_sharp_edges(const Mesh& from, const ChunkedArray<Origin>& sharp,
-                                       const Mesh& to);
+/// The sharp edges of `from` that `to` has inside, too: one flag per edge of `to`.
+std::vector<Origin> carry_sharp_edges(const Mesh& from, const ChunkedArray<Origin>& sharp,
+                                      const Mesh& to);
 
 }  // namespace arris

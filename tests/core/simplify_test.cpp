@@ -313,7 +313,7 @@ TEST(Simplify, KeepsSharpEdges) {
   options.error_zone = 0.5;
   const Prepared result = must(simplify(*roof, nullptr, sharp, options));
   for (const EdgeVertices& e : ridge) EXPECT_TRUE(result.mesh->find_edge(e[0], e[1]));
-  const ChunkedArray<Origin> carried = carry_sharp_edges(*roof, sharp, *result.mesh);
+  const ChunkedArray<Origin> carried(carry_sharp_edges(*roof, sharp, *result.mesh), {});
   std::size_t count = 0;
   for (EdgeId e = 0; e < result.mesh->edge_count(); ++e) count += carried[e] != Origin::none;
   EXPECT_EQ(count, ridge.size());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/simplification/working_mesh.h"
+
 namespace arris {
 
 Stage stage_before(const Document& document, std::string_view step) {
@@ -13,14 +15,7 @@ Stage stage_before(const Document& document, std::string_view step) {
 }
 
 std::vector<Origin> sharp_edges_on(const Document& document, const Mesh& mesh) {
-  std::vector<Origin> edges(mesh.edge_count(), Origin::none);
-  for (EdgeId e = 0; e < document.lines.edges.size(); ++e) {
-    if (!document.lines.is_sharp(e)) continue;
-    const EdgeVertices& v = document.mesh->edge(e);
-    if (const auto same = mesh.find_edge(v[0], v[1]); same && !mesh.is_border_edge(*same))
-      edges[*same] = document.lines.edges[e];
-  }
-  return edges;
+  return carry_sharp_edges(*document.mesh, document.lines.edges, mesh);
 }
 
 Result<void> change_mesh(Document& document, Stage stage, const Context& context) {
