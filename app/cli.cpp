@@ -107,9 +107,8 @@ nlohmann::json summary_of(const History& history) {
   summary["partitions"] = {{"count", document.partitions.partitions.size()},
                            {"assigned_area_share", assigned_share(document)}};
   std::map<std::string, std::size_t> types;
-  for (const Boundary& boundary :
-       derive_boundaries(*document.mesh, *document.curvatures, document.lines, document.partitions))
-    ++types[std::string(name_of(boundary.type))];
+  for (const BoundaryPtr& boundary : *document.boundaries)
+    ++types[std::string(name_of(boundary->type))];
   summary["boundaries"] = types;
   summary["document_hash"] = hash_of(document);
   return summary;
@@ -189,12 +188,27 @@ int curvature(const std::string& scan, const std::string& output) {
   return 0;
 }
 
-int segment(const std::string& scan, const std::string& folder, const nlohmann::json& lines,
-            const nlohmann::json& partitions) {
+/// Figure 2 on one scan.
+struct Segmentation {
+  bool prepare = true;
+  bool swap = false;  // costs more of the weak lines than it mends of the noise
+  int smoothing_passes = 0;
+  nlohmann::json simplification = nlohmann::json::object();
+  nlohmann::json lines = nlohmann::json::object();
+  nlohmann::json partitions = nlohmann::json::object();
+};
+
+int segment(const std::string& scan, const std::string& folder, const Segmentation& wanted) {
+  std::vector<Operation> operations{{"open", {{"file", scan}}}};
+  if (wanted.prepare) operations.push_back({"simplify", wanted.simplification});
+  if (wanted.swap) operations.push_back({"swap_edges"});
+  operations.push_back({"find_sharp_lines", wanted.lines});
+  if (wanted.prepare) operations.push_back({"equilateralize"});
+  if (wanted.smoothing_passes > 0)
+    operations.push_back({"smooth_curvature", {{"passes", wanted.smoothing_passes}}});
+  operations.push_back({"find_partitions", wanted.partitions});
   Run run;
-  for (const Operation& operation :
-       {Operation{"open", {{"file", scan}}}, Operation{"find_sharp_lines", lines},
-        Operation{"find_partitions", partitions}})
+  for (const Operation& operation : operations)
     if (const auto done = run.step(operation); !done) return complain(done.error());
   nlohmann::json summary = summary_of(run.history);
   summary["seconds"] = run.seconds;
@@ -305,13 +319,6 @@ int main(int argc, char** argv) {
   std::string cost;
   simplify_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
   simplify_command->add_option("-o,--output", output, "The PLY to write")->required();
-  CLI::Option* zone_option =
-      simplify_command
-          ->add_option("--error-zone", error_zone, "Radius in mm; left out: the noise of the scan")
-          ->check(CLI::NonNegativeNumber);
-  CLI::Option* edge_option =
-      simplify_command->add_option("--max-edge", max_edge, "No new edge longer than this (mm)")
-          ->check(CLI::NonNegativeNumber);
   CLI::Option* cost_option =
       simplify_command->add_option("--cost", cost, "How stars are triangulated: flat, angle, area")
           ->check(CLI::IsMember({"flat", "angle", "area"}));
@@ -352,6 +359,30 @@ int main(int argc, char** argv) {
   CLI::Option* fill_option = segment_command->add_option(
       "--fill-holes", fill_holes, "Unassigned areas with fewer faces join a neighbour; 0: none");
 
+  const auto add_zone = [&](CLI::App* command) {
+    return command
+        ->add_option("--error-zone", error_zone, "Radius in mm; left out: three times the noise")
+        ->check(CLI::NonNegativeNumber);
+  };
+  const auto add_edge = [&](CLI::App* command, const std::string& otherwise) {
+    return command
+        ->add_option("--max-edge", max_edge, "No new edge longer than this (mm); " + otherwise)
+        ->check(CLI::NonNegativeNumber);
+  };
+  CLI::Option* zone_option = add_zone(simplify_command);
+  CLI::Option* edge_option = add_edge(simplify_command, "left out: no limit");
+  CLI::Option* segment_zone_option = add_zone(segment_command);
+  CLI::Option* segment_edge_option = add_edge(segment_command, "0: no limit");
+  Segmentation segmentation;
+  bool no_prepare = false;
+  segment_command->add_flag("--no-prepare", no_prepare,
+                            "Lines and partitions of the scan as it is, not simplified");
+  segment_command->add_flag("--swap", segmentation.swap, "Swap edges before finding lines");
+  segment_command
+      ->add_option("--smooth", segmentation.smoothing_passes,
+                   "Passes of curvature smoothing before finding partitions (0)")
+      ->check(CLI::Range(0, 100));
+
   CLI::App* replay_command = app.add_subcommand("replay", "Run a journal or list of operations");
   replay_command->add_option("OPERATIONS", operations, "A file of operations, one JSON a line")
       ->required();
@@ -362,7 +393,8 @@ int main(int argc, char** argv) {
   CLI::App* sample_command = app.add_subcommand("sample", "Write the sample mould as a PLY");
   sample_command->add_option("-o,--output", output, "The PLY to write")->required();
 
-  nlohmann::json lines = nlohmann::json::object(), partitions = nlohmann::json::object();
+  nlohmann::json& lines = segmentation.lines;
+  nlohmann::json& partitions = segmentation.partitions;
   try {
     app.parse(argc, argv);
     if (std::isnan(sharp_angle) || std::isnan(min_length) || std::isnan(error_zone) ||
@@ -384,16 +416,18 @@ int main(int argc, char** argv) {
   if (*faces_option) partitions["min_faces"] = min_faces;
   if (*fill_option) partitions["fill_holes"] = fill_holes;
 
-  nlohmann::json simplification = nlohmann::json::object();
-  if (*zone_option) simplification["error_zone"] = error_zone;
-  if (*edge_option) simplification["max_edge_length"] = max_edge;
+  nlohmann::json& simplification = segmentation.simplification;
+  segmentation.prepare = !no_prepare;
+  if (*zone_option || *segment_zone_option) simplification["error_zone"] = error_zone;
+  if (*edge_option || *segment_edge_option || *simplify_command)
+    simplification["max_edge_length"] = max_edge;
   if (*cost_option) simplification["cost"] = cost;
   if (*target_option) simplification["target_vertices"] = target;
 
   if (*info_command) return info(scan, as_json);
   if (*curvature_command) return curvature(scan, output);
   if (*simplify_command) return simplify_scan(scan, output, simplification);
-  if (*segment_command) return segment(scan, output, lines, partitions);
+  if (*segment_command) return segment(scan, output, segmentation);
   if (*replay_command) return replay_file(operations, other_scan, output);
   return sample(output);
 }

@@ -7,6 +7,8 @@
 
 namespace arris {
 
+std::uint64_t hash_bytes(const void* data, std::size_t size) { return XXH3_64bits(data, size); }
+
 Hasher::Hasher() : state_(XXH3_createState()) {
   XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
 }

@@ -7,6 +7,9 @@
 
 namespace arris {
 
+/// 64-bit content hash (XXH3) of plain values without padding.
+std::uint64_t hash_bytes(const void* data, std::size_t size);
+
 /// Streaming 128-bit content hash (XXH3), the same on every machine of the same byte order.
 class Hasher {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
 
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
@@ -21,12 +22,7 @@ void add(Hasher& hasher, const std::optional<Step>& step) {
 void add(Hasher& hasher, const ErrorZonesPtr& zones) {
   hasher.number(zones != nullptr);
   if (!zones) return;
-  hasher.bytes(zones->radii().data(), zones->radii().size() * sizeof(double));
-  for (FaceId f = 0; f < zones->face_count(); ++f) {
-    const auto of_face = zones->of_face(f);
-    hasher.number(of_face.size());
-    hasher.bytes(of_face.data(), of_face.size_bytes());
-  }
+  hasher.number(zones->hash());
 }
 
 void add_real(Hasher& hasher, double value) { hasher.bytes(&value, sizeof value); }
@@ -98,6 +94,17 @@ const std::optional<Step>& Document::step(std::string_view name) const {
                                       : none;
 }
 
+bool Document::is_divided_as(const Document& other) const {
+  return mesh == other.mesh && lines.lines == other.lines.lines && lines.cuts == other.lines.cuts &&
+         lines.edges == other.lines.edges && partitions.labels == other.partitions.labels;
+}
+
+Criterion Document::criterion() const {
+  return find_partitions && find_partitions->parameters.value("criterion", "kabs") == "ikabs"
+             ? Criterion::ikabs
+             : Criterion::kabs;
+}
+
 std::string hash_of(const Document& document) {
   Hasher hasher;
   hasher.number(document.scan != nullptr);
@@ -108,31 +115,30 @@ std::string hash_of(const Document& document) {
   if (document.scan_faces)
     hasher.bytes(document.scan_faces->data(), document.scan_faces->size() * sizeof(FaceId));
 
-  // Sharp edges by vertex pairs: edge numbers are not stored (document.md, rule 1).
-  for (EdgeId e = 0; e < document.lines.edges.size(); ++e) {
-    if (!document.lines.is_sharp(e)) continue;
-    const EdgeVertices& v = document.mesh->edge(e);
-    hasher.bytes(v.data(), sizeof v);
-    hasher.number(static_cast<std::uint64_t>(document.lines.edges[e]));
-  }
+  // Edges and faces are numbered by what the mesh holds, and its hash is in already.
+  hasher.number(document.lines.edges.hash());
+  hasher.number(document.lines.cuts.size());
+  hasher.bytes(document.lines.cuts.data(), document.lines.cuts.size() * sizeof(VertexId));
   hasher.number(document.lines.lines.size());
   for (const LinePtr& line : document.lines.lines) {
     hasher.number(line->id);
+    hasher.number(line->locked);
     hasher.number(line->vertices.size());
     hasher.bytes(line->vertices.data(), line->vertices.size() * sizeof(VertexId));
   }
 
-  hasher.number(document.partitions.labels.size());
-  for (FaceId f = 0; f < document.partitions.labels.size(); ++f)
-    hasher.number(document.partitions.labels[f]);
+  hasher.number(document.partitions.labels.hash());
   hasher.number(document.partitions.partitions.size());
   for (const PartitionPtr& partition : document.partitions.partitions) {
     hasher.number(partition->id);
+    hasher.number(partition->locked);
     hasher.bytes(partition->anchor.data(), sizeof partition->anchor);
     hasher.number(static_cast<std::uint64_t>(partition->criterion));
     add_real(hasher, partition->interval.min);
     add_real(hasher, partition->interval.max);
   }
+  hasher.number(document.corrections.size());
+  for (const CorrectionPtr& correction : document.corrections) hasher.text(correction->hash);
   for (const Stage* stage : {&document.opened, &document.simplified, &document.swapped})
     hasher.text(stage->mesh ? stage->mesh->hash() : "");
   add(hasher, document.zones);
@@ -193,6 +199,21 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
     bytes += sizeof(LinePtr);
     if (line.get() != base.lines.find(line->id))
       bytes += sizeof(Line) + line->vertices.size() * sizeof(VertexId);
+  }
+  if (document.boundaries && document.boundaries != base.boundaries) {
+    std::unordered_set<const Boundary*> shared;
+    if (base.boundaries)
+      for (const BoundaryPtr& boundary : *base.boundaries) shared.insert(boundary.get());
+    for (const BoundaryPtr& boundary : *document.boundaries) {
+      bytes += sizeof(BoundaryPtr);
+      if (!shared.contains(boundary.get()))
+        bytes += sizeof(Boundary) + boundary->vertices.size() * sizeof(VertexId);
+    }
+  }
+  for (std::size_t k = 0; k < document.corrections.size(); ++k) {
+    bytes += sizeof(CorrectionPtr);
+    if (k >= base.corrections.size() || base.corrections[k] != document.corrections[k])
+      bytes += document.corrections[k]->bytes();
   }
   bytes += document.partitions.labels.bytes_beyond(base.partitions.labels);
   for (const PartitionPtr& partition : document.partitions.partitions) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/curvature/curvature.h"
+#include "core/document/corrections.h"
 #include "core/document/operation.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/scan.h"
@@ -51,6 +52,10 @@ struct Document {
 
   SharpLines lines;
   Partitions partitions;
+  /// Borderlines of the lines and partitions; derived, shared. Null in the empty document.
+  std::shared_ptr<const Boundaries> boundaries;
+  /// What was corrected by hand, in order; done again when lines or partitions are found again.
+  std::vector<CorrectionPtr> corrections;
   CurvaturesPtr smoothed;  ///< Output of smooth_curvature; null: not run on this mesh.
   std::optional<Step> simplify;
   std::optional<Step> swap_edges;
@@ -63,6 +68,10 @@ struct Document {
   bool empty() const { return !scan; }
   /// The step of this name as last run; absent for one never run, and for names that are no step.
   const std::optional<Step>& step(std::string_view name) const;
+  /// Same lines and partitions on the same mesh: the boundaries are the same, too.
+  bool is_divided_as(const Document& other) const;
+  /// The criterion by which the partitions were found; kabs where they were not.
+  Criterion criterion() const;
   /// What is shown and what partitions are found by: smoothed where that was run.
   const CurvaturesPtr& shown_curvatures() const { return smoothed ? smoothed : curvatures; }
 };

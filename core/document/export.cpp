@@ -49,14 +49,13 @@ std::string lines_obj(const Document& document) {
 std::string boundaries_obj(const Document& document) {
   PolylineObj obj(*document.mesh);
   std::size_t number = 0;
-  for (const Boundary& boundary : derive_boundaries(*document.mesh, *document.curvatures,
-                                                    document.lines, document.partitions)) {
+  for (const BoundaryPtr& boundary : *document.boundaries) {
     std::string group = "boundary_" + std::to_string(++number) + "_";
-    group += name_of(boundary.type);
-    if (boundary.type == BoundaryType::c0) group += "_line" + std::to_string(boundary.line);
-    for (const std::uint32_t id : {boundary.left, boundary.right})
+    group += name_of(boundary->type);
+    if (boundary->type == BoundaryType::c0) group += "_line" + std::to_string(boundary->line);
+    for (const std::uint32_t id : {boundary->left, boundary->right})
       if (id != 0) group += "_p" + std::to_string(id);
-    obj.add(group, boundary.vertices);
+    obj.add(group, boundary->vertices);
   }
   return obj.take();
 }

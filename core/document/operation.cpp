@@ -4,6 +4,7 @@
 
 #include "core/document/document.h"
 #include "core/document/operations/operations.h"
+#include "core/document/treatments/treatments.h"
 
 namespace arris {
 
@@ -15,10 +16,34 @@ constexpr const char* version_key = "version";
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 9> table{
-      open_operation,           flip_orientation_operation, delete_faces_operation,
-      simplify_operation,       swap_edges_operation,       find_sharp_lines_operation,
-      equilateralize_operation, smooth_curvature_operation, find_partitions_operation};
+  static const std::array<OperationKind, 28> table{open_operation,
+                                                   flip_orientation_operation,
+                                                   delete_faces_operation,
+                                                   simplify_operation,
+                                                   swap_edges_operation,
+                                                   find_sharp_lines_operation,
+                                                   delete_lines_operation,
+                                                   extend_line_operation,
+                                                   trim_line_operation,
+                                                   split_line_operation,
+                                                   merge_lines_operation,
+                                                   draw_line_operation,
+                                                   reroute_line_operation,
+                                                   recompute_lines_operation,
+                                                   equilateralize_operation,
+                                                   smooth_curvature_operation,
+                                                   find_partitions_operation,
+                                                   connect_partitions_operation,
+                                                   extend_partition_operation,
+                                                   remove_partitions_operation,
+                                                   remove_small_partitions_operation,
+                                                   restart_partitions_operation,
+                                                   recompute_partitions_operation,
+                                                   split_partition_operation,
+                                                   paint_partition_operation,
+                                                   smooth_boundaries_operation,
+                                                   lock_operation,
+                                                   lift_correction_operation};
   return table;
 }
 
@@ -82,6 +107,11 @@ Result<Performed> perform(const Document& document, const Operation& operation,
   parameters.erase(version_key);
   Result<Document> result = find_operation(complete->name)->apply(document, parameters, context);
   if (!result) return tl::unexpected<Error>(result.error());
+  Document& after = *result;
+  // Treatments carry the boundaries on by what they touch; whatever else changed them did not.
+  if (after.mesh && after.boundaries == document.boundaries && !after.is_divided_as(document))
+    after.boundaries = std::make_shared<const Boundaries>(
+        derive_boundaries(*after.mesh, *after.curvatures, after.lines, after.partitions));
   if (complete->name == open_operation.name)
     complete->parameters["hash"] = result->scan->report.content_hash;
   return Performed{std::move(*complete), std::move(*result)};

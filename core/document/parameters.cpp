@@ -102,6 +102,11 @@ const nlohmann::json& ParameterReader::raw(const std::string& name) {
   return given ? *given : nothing;
 }
 
+Result<void> ParameterReader::check() const {
+  if (error_) return tl::unexpected<Error>(*error_);
+  return {};
+}
+
 Result<nlohmann::json> ParameterReader::finish() {
   if (!error_)
     for (const auto& [name, value] : given_.items())

@@ -34,6 +34,10 @@ class ParameterReader {
   /// Sets what raw() was resolved to.
   void set(const std::string& name, nlohmann::json value) { resolved_[name] = std::move(value); }
   void fault(const std::string& name, const std::string& expected);
+  /// The first fault so far, for a reader that needs good values to go on.
+  Result<void> check() const;
+  /// What a parameter read so far was resolved to.
+  const nlohmann::json& resolved(const std::string& name) const { return resolved_.at(name); }
 
   Result<nlohmann::json> finish();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <unordered_set>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -23,6 +24,26 @@ struct Chain {
   }
 };
 
+/// Marks on edges: a bit each, or a hash set where so few are meant that the bits cost more.
+class EdgeMarks {
+ public:
+  EdgeMarks(const Mesh& mesh, std::size_t expected) {
+    constexpr std::size_t few = 256;
+    if (expected > mesh.edge_count() / few) dense_.resize(mesh.edge_count(), false);
+  }
+  bool has(EdgeId e) const { return dense_.empty() ? sparse_.contains(e) : dense_[e]; }
+  void mark(EdgeId e) {
+    if (dense_.empty())
+      sparse_.insert(e);
+    else
+      dense_[e] = true;
+  }
+
+ private:
+  std::vector<bool> dense_;
+  std::unordered_set<EdgeId> sparse_;
+};
+
 /// Links a set of edges into chains: each edge is in exactly one chain; a chain goes on through a
 /// vertex that has exactly two edges of the set, where `continues(h, next)` also agrees (`h` ends
 /// and `next` starts at the vertex). Chains come in the order of their lowest edge id; an open
@@ -30,7 +51,8 @@ struct Chain {
 /// lowest vertex towards the lower neighbour; so the result does not depend on how the set came
 /// about.
 ///
-/// `edges`: increasing edge ids. `in_set(e)`: whether edge e is in the set.
+/// `edges`: increasing edge ids, of the set or of a part of it: the chains through these are made.
+/// `in_set(e)`: whether edge e is in the set. The cost follows the chains, not the mesh.
 template <class InSet, class Continues>
 std::vector<Chain> link_chains(const Mesh& mesh, const std::vector<EdgeId>& edges,
                                const InSet& in_set, const Continues& continues) {
@@ -47,21 +69,21 @@ std::vector<Chain> link_chains(const Mesh& mesh, const std::vector<EdgeId>& edge
   };
 
   std::vector<Chain> chains;
-  std::vector<bool> linked(mesh.edge_count(), false);
+  EdgeMarks linked(mesh, edges.size());
   for (const EdgeId e : edges) {
-    if (linked[e]) continue;
+    if (linked.has(e)) continue;
     Chain chain;
     HalfEdgeId h = 2 * e;
-    while (h != no_id && !linked[h >> 1]) {
-      linked[h >> 1] = true;
+    while (h != no_id && !linked.has(h >> 1)) {
+      linked.mark(h >> 1);
       chain.half_edges.push_back(h);
       h = successor(h);
     }
     chain.closed = h != no_id && (h >> 1) == e;
     if (!chain.closed) {
       const std::size_t ahead = chain.half_edges.size();
-      for (h = successor(2 * e + 1); h != no_id && !linked[h >> 1]; h = successor(h)) {
-        linked[h >> 1] = true;
+      for (h = successor(2 * e + 1); h != no_id && !linked.has(h >> 1); h = successor(h)) {
+        linked.mark(h >> 1);
         chain.half_edges.push_back(Mesh::opposite(h));
       }
       const auto middle = chain.half_edges.begin() + static_cast<std::ptrdiff_t>(ahead);

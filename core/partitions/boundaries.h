@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -31,12 +32,29 @@ struct Boundary {
   std::uint32_t line = 0;             ///< C0: id of the sharp line it lies on.
   double length = 0.0;                ///< mm
   double mean_angle = 0.0;            ///< Degrees, signed mean of IHe weighted by length.
+  EdgeId lowest_edge = no_id;         ///< Of the mesh; the order of boundaries.
   bool operator==(const Boundary&) const = default;
 };
 
-/// All boundaries of the lines and partitions, in the order of their lowest edge. Derived, never
-/// stored. A border edge of the scan is a boundary where its face belongs to a partition.
-std::vector<Boundary> derive_boundaries(const Mesh& mesh, const Curvatures& curvatures,
-                                        const SharpLines& lines, const Partitions& partitions);
+using BoundaryPtr = std::shared_ptr<const Boundary>;
+using Boundaries = std::vector<BoundaryPtr>;
+
+/// All boundaries of the lines and partitions, in the order of their lowest edge. A border edge of
+/// the scan is a boundary where its face belongs to a partition.
+Boundaries derive_boundaries(const Mesh& mesh, const Curvatures& curvatures,
+                             const SharpLines& lines, const Partitions& partitions);
+
+/// Lines and partitions on one mesh.
+struct Division {
+  const SharpLines& lines;
+  const Partitions& partitions;
+};
+
+/// The same as derive_boundaries() for `after`, from the boundaries of `before`, at a cost that
+/// follows the edit: only boundaries through `touched` (edges that became sharp or ceased to be, or
+/// with a face whose label changed) and those of lines that changed are made anew.
+Boundaries update_boundaries(const Mesh& mesh, const Curvatures& curvatures,
+                             const Boundaries& boundaries, const Division& before,
+                             const Division& after, const std::vector<EdgeId>& touched);
 
 }  // namespace arris

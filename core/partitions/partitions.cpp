@@ -16,8 +16,13 @@ constexpr std::uint32_t unassigned = 0;
 /// The state of one propagation over one mesh.
 class Propagation {
  public:
-  Propagation(const Mesh& mesh, const std::vector<double>& values, const SharpLines& lines)
-      : mesh_(mesh), values_(values), lines_(lines), regular_(mesh.vertex_count(), 0) {
+  Propagation(const Mesh& mesh, const std::vector<double>& values, const SharpLines& lines,
+              const std::vector<bool>& taken)
+      : mesh_(mesh),
+        values_(values),
+        lines_(lines),
+        taken_(taken),
+        regular_(mesh.vertex_count(), 0) {
     parallel_for(mesh.vertex_count(), [&](std::size_t i) {
       const VertexId v = static_cast<VertexId>(i);
       if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return;
@@ -42,7 +47,7 @@ class Propagation {
   void run(const CurvatureInterval& interval, const PartitionOptions& options) {
     std::vector<std::uint8_t> passes(mesh_.face_count());
     parallel_for(mesh_.face_count(), [&](std::size_t f) {
-      bool in = votes_[f] > 0 && found_.labels[f] == unassigned;
+      bool in = votes_[f] > 0 && found_.labels[f] == unassigned && !is_taken(f);
       for (const VertexId v : mesh_.triangle(static_cast<FaceId>(f)))
         in = in && (!regular_[v] || (values_[v] >= interval.min && values_[v] <= interval.max));
       passes[f] = in;
@@ -69,12 +74,14 @@ class Propagation {
   }
 
  private:
+  bool is_taken(std::size_t f) const { return !taken_.empty() && taken_[f]; }
+
   /// Faces without a regular vertex: round after round, each joins the partition across its longest
   /// edge that is not sharp.
   void join_faces_without_vote() {
     std::vector<FaceId> left;
     for (FaceId f = 0; f < mesh_.face_count(); ++f)
-      if (votes_[f] == 0) left.push_back(f);
+      if (votes_[f] == 0 && !is_taken(f)) left.push_back(f);
     std::vector<std::pair<FaceId, std::uint32_t>> joined;
     do {
       joined.clear();
@@ -97,7 +104,7 @@ class Propagation {
     std::vector<std::pair<std::vector<FaceId>, std::uint32_t>> holes;  // with the label to take
     std::vector<std::pair<std::uint32_t, double>> shared;              // border with each partition
     for (FaceId start = 0; start < mesh_.face_count(); ++start) {
-      if (seen[start] || found_.labels[start] != unassigned) continue;
+      if (seen[start] || found_.labels[start] != unassigned || is_taken(start)) continue;
       front_.assign(1, start);
       seen[start] = true;
       shared.clear();
@@ -108,7 +115,7 @@ class Propagation {
           if (f == no_id || lines_.is_sharp(h >> 1)) continue;
           if (found_.labels[f] != unassigned)
             shared.emplace_back(found_.labels[f], mesh_.edge_length(h >> 1));
-          else if (!seen[f]) {
+          else if (!seen[f] && !is_taken(f)) {
             seen[f] = true;
             front_.push_back(f);
           }
@@ -200,6 +207,7 @@ class Propagation {
   const Mesh& mesh_;
   const std::vector<double>& values_;
   const SharpLines& lines_;
+  const std::vector<bool>& taken_;
   std::vector<std::uint8_t> regular_;  // vertices with a two-sided curvature
   std::vector<std::uint8_t> votes_;    // regular vertices of each face
   std::vector<VertexId> seeds_;        // regular vertices by decreasing value
@@ -226,9 +234,9 @@ const Partition* Partitions::find(std::uint32_t id) const {
 
 Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<double>& values,
                                          const SharpLines& lines, const PartitionOptions& options,
-                                         const Context& context) {
+                                         const Context& context, const std::vector<bool>& taken) {
   context.report(0.0, "partitions");
-  Propagation propagation(mesh, values, lines);
+  Propagation propagation(mesh, values, lines, taken);
   for (std::size_t k = 0; k < options.intervals.size(); ++k) {
     if (context.cancelled()) return cancelled();
     propagation.run(options.intervals[k], options);

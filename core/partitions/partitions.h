@@ -46,9 +46,11 @@ struct Partition {
   Triangle anchor{};  ///< Vertices of its seed face; finds it again (document.md, rule 4).
   std::uint32_t faces = 0;
   double area = 0.0;        ///< mm^2
-  double mean_value = 0.0;  ///< Mean of the criterion over its regular vertices.
+  double mean_value = 0.0;  ///< Mean of the criterion over its regular vertices; after an edit
+                            ///< carried on by the area of the faces that came and went.
   Criterion criterion = Criterion::kabs;
   CurvatureInterval interval;  ///< That it was found under.
+  bool locked = false;         ///< Approved: no finding changes it.
   bool operator==(const Partition&) const = default;
 };
 
@@ -68,14 +70,16 @@ struct Partitions {
 /// were found, 0 where no interval passes. A face passes where each of its regular vertices
 /// (interior, on no sharp line) lies in the interval; a face without one joins afterwards across
 /// its longest edge that is not sharp. The front never crosses a sharp edge. `values`: the
-/// criterion per vertex. Errors: cancelled.
+/// criterion per vertex. `taken`: faces that are not to be had, one flag each, or empty. Errors:
+/// cancelled.
 struct FoundPartitions {
   std::vector<std::uint32_t> labels;
   std::vector<Partition> partitions;  ///< [k] has label k + 1; ids are still 0.
 };
 Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<double>& values,
                                          const SharpLines& lines, const PartitionOptions& options,
-                                         const Context& context = {});
+                                         const Context& context = {},
+                                         const std::vector<bool>& taken = {});
 
 /// A document's partitions from found ones: each keeps the id of the partition of `previous` with
 /// which it shares most area (tie: the lower id); the others get ids from `next_id` on. `previous`

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/hash.h"
 #include "core/simplification/distance.h"
 
 namespace arris {
@@ -21,7 +22,14 @@ ErrorZones::ErrorZones(std::vector<double> radii, std::vector<std::uint32_t> fac
       face_zones_(std::move(face_zones)),
       border_edges_(std::move(border_edges)),
       border_starts_(std::move(border_starts)),
-      border_zones_(std::move(border_zones)) {}
+      border_zones_(std::move(border_zones)) {
+  const auto hash = [](const auto& values) {
+    return hash_bytes(values.data(), values.size() * sizeof values[0]);
+  };
+  const std::uint64_t parts[] = {hash(radii_),        hash(face_starts_),   hash(face_zones_),
+                                 hash(border_edges_), hash(border_starts_), hash(border_zones_)};
+  hash_ = hash_bytes(parts, sizeof parts);
+}
 
 double ErrorZones::largest_radius() const { return *std::ranges::max_element(radii_); }
 

@@ -47,6 +47,7 @@ class ErrorZones {
   Result<void> check(const Mesh& mesh) const;
 
   std::size_t bytes() const;
+  std::uint64_t hash() const { return hash_; }  ///< Of the content.
   bool operator==(const ErrorZones&) const = default;
 
  private:
@@ -56,6 +57,7 @@ class ErrorZones {
   std::vector<EdgeId> border_edges_;
   std::vector<std::uint32_t> border_starts_;
   std::vector<VertexId> border_zones_;
+  std::uint64_t hash_ = 0;
 };
 
 using ErrorZonesPtr = std::shared_ptr<const ErrorZones>;

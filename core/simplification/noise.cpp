@@ -97,6 +97,10 @@ double estimate_noise(const Mesh& mesh) {
   return std::sqrt(*middle);
 }
 
-double default_error_zone(const Mesh& mesh) { return rounded(2.0 * estimate_noise(mesh), 2); }
+double default_error_zone(const Mesh& mesh) { return rounded(3.0 * estimate_noise(mesh), 2); }
+
+double default_max_edge_length(const Mesh& mesh) {
+  return rounded(2.0 * mesh.mean_edge_length(), 2);
+}
 
 }  // namespace arris

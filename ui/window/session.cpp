@@ -25,8 +25,7 @@ double seconds_since(Clock::time_point start) {
 Snapshot snapshot_of(Document document) {
   Snapshot snapshot{std::move(document), {}};
   if (!snapshot.document.empty())
-    snapshot.boundaries = derive_boundaries(*snapshot.document.mesh, *snapshot.document.curvatures,
-                                            snapshot.document.lines, snapshot.document.partitions);
+    snapshot.boundaries = *snapshot.document.boundaries;
   return snapshot;
 }
 

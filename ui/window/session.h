@@ -21,7 +21,7 @@ namespace arris::ui {
 /// A document with the boundaries derived from it, as the window shows it.
 struct Snapshot {
   Document document;
-  std::vector<Boundary> boundaries;
+  Boundaries boundaries;
 };
 
 /// The open part: its history, and the work on it, which runs on a thread of its own. All calls and

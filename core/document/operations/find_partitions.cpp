@@ -3,6 +3,7 @@
 
 #include "core/base/number_text.h"
 #include "core/document/operations/operations.h"
+#include "core/document/treatments/treatment.h"
 #include "core/partitions/intervals.h"
 
 namespace arris {
@@ -41,26 +42,16 @@ Result<nlohmann::json> resolve_partitions(const Document& document, const nlohma
                std::numeric_limits<std::int32_t>::max());
   reader.whole("fill_holes", default_fill_holes(*document.mesh), 0,
                std::numeric_limits<std::int32_t>::max());
+  // Corrections made by hand are done again on what is found.
+  reader.flag("corrections", true);
   return reader.finish();
 }
 
 Result<Document> apply_partitions(const Document& document, const nlohmann::json& parameters,
                                   const Context& context) {
-  PartitionOptions options;
-  options.criterion = parameters.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
-  options.min_faces = parameters.at("min_faces");
-  options.fill_holes = parameters.at("fill_holes");
-  for (const auto& interval : parameters.at("intervals"))
-    options.intervals.push_back({interval[0], interval[1].is_null()
-                                                  ? std::numeric_limits<double>::infinity()
-                                                  : interval[1].get<double>()});
-  const Result<FoundPartitions> found =
-      propagate_fronts(*document.mesh, values_of(*document.shown_curvatures(), options.criterion),
-                       document.lines, options, context);
-  if (!found) return tl::unexpected<Error>(found.error());
   Document result = document;
-  result.partitions =
-      number_partitions(*document.mesh, *found, document.partitions, result.next_id);
+  if (const auto found = refind_partitions(result, parameters, context); !found)
+    return tl::unexpected<Error>(found.error());
   result.find_partitions = Step{parameters, false};
   return result;
 }

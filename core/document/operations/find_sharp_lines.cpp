@@ -5,6 +5,7 @@
 #include "core/base/number_text.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/treatments/treatment.h"
 
 namespace arris {
 
@@ -22,17 +23,13 @@ Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::j
   reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
   reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);
   reader.real("bridge_gap", defaults.bridge_gap, 0.0, longest);
+  // Corrections made by hand are done again on what is found.
+  reader.flag("corrections", true);
   return reader.finish();
 }
 
 Result<Document> apply_lines(const Document& document, const nlohmann::json& parameters,
                              const Context& context) {
-  SharpLineOptions options;
-  options.angle = parameters.at("angle");
-  options.candidates = parameters.at("candidates");
-  options.min_length = parameters.at("min_length");
-  options.parallel_distance = parameters.at("parallel_distance");
-  options.bridge_gap = parameters.at("bridge_gap");
   Document result = document;
   outdate_after(result, "find_sharp_lines");
   // From the output of the steps before: an equilateralised mesh gives way.
@@ -40,11 +37,8 @@ Result<Document> apply_lines(const Document& document, const nlohmann::json& par
           change_mesh(result, stage_before(document, "find_sharp_lines"), context.part(0.0, 0.1));
       !changed)
     return tl::unexpected<Error>(changed.error());
-  const Result<std::vector<Origin>> edges =
-      find_sharp_edges(*result.mesh, *result.curvatures, options, context.part(0.1, 1.0));
-  if (!edges) return tl::unexpected<Error>(edges.error());
-  result.lines =
-      relink_lines(*result.mesh, *result.curvatures, *edges, document.lines, result.next_id);
+  if (const auto found = refind_lines(result, parameters, context.part(0.1, 1.0)); !found)
+    return tl::unexpected<Error>(found.error());
   result.find_sharp_lines = Step{parameters, false};
   return result;
 }

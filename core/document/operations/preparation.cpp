@@ -44,8 +44,11 @@ Result<nlohmann::json> resolve_simplify(const Document& document, const nlohmann
   const bool has_zone = reader.has("error_zone") && !given["error_zone"].is_null();
   reader.real("error_zone", has_zone ? 0.0 : default_error_zone(*document.opened.mesh), 0.0,
               longest);
-  reader.real("max_edge_length", 0.0, 0.0, longest);
-  reader.choice("cost", "flat", {"flat", "angle", "area"});
+  const double edge =
+      reader.real("max_edge_length", default_max_edge_length(*document.opened.mesh), 0.0, longest);
+  // The area gives the truest normals (see StarCost), but is slow on the big stars that grow where
+  // edges may have any length.
+  reader.choice("cost", edge > 0.0 ? "area" : "flat", {"flat", "angle", "area"});
   reader.whole("target_vertices", 0, 0, 0x7FFFFFFF);
   reader.flag("again", false);
   return reader.finish();

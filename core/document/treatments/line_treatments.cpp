@@ -1,0 +1,338 @@
+// The interactive treatments of sharp lines (section 6.3.2).
+
+#include <algorithm>
+
+#include "core/base/number_text.h"
+#include "core/document/treatments/treatments.h"
+
+namespace arris {
+
+namespace {
+
+using nlohmann::json;
+
+bool after_lines(const json&, Round round) { return round == Round::after_lines; }
+
+/// TV_IH in force; before lines were found, what an engineer calls sharp.
+double angle_in_force(const Document& document) {
+  return document.find_sharp_lines ? document.find_sharp_lines->parameters.value("angle", 30.0)
+                                   : SharpLineOptions().angle;
+}
+
+double read_angle(ParameterReader& reader, const Document& document) {
+  return reader.real("angle", angle_in_force(document), 0.1, 179.9);
+}
+
+std::string ids_text(const json& ids) {
+  std::string text;
+  for (std::size_t k = 0; k < ids.size() && k < 3; ++k) text += (k > 0 ? ", " : "") + ids[k].dump();
+  return ids.size() > 3 ? std::to_string(ids.size()) : text;
+}
+
+std::string lines_gist(const json& parameters) {
+  return parameters.contains("lines") ? ids_text(parameters["lines"]) : "";
+}
+std::string line_gist(const json& parameters) {
+  return parameters.contains("line") ? parameters["line"].dump() : "";
+}
+
+// delete_lines: {lines: [ids]}
+
+Result<json> resolve_delete(const Document& document, const json& given) {
+  ParameterReader reader("delete_lines", given);
+  read_lines(reader, document, "lines", "paths", false);
+  reader.raw("spared");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  read_spared(reader, document, paths_of(reader.resolved("paths")));
+  return reader.finish();
+}
+
+Result<Outcome> delete_lines(Ground& ground, const json& parameters, Round round) {
+  remove_paths(ground, paths_of(parameters.at("paths")), parameters.at("spared"), round);
+  return Outcome{};
+}
+
+// extend_line: {line: id, angle: degrees, ends: both | first | last, candidates: 3}
+
+Result<json> resolve_extend(const Document& document, const json& given) {
+  ParameterReader reader("extend_line", given);
+  read_lines(reader, document, "line", "path", true);
+  read_angle(reader, document);
+  reader.choice("ends", "both", {"both", "first", "last"});
+  reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
+  return reader.finish();
+}
+
+Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const Path anchor = path_of(parameters.at("path"));
+  const Result<LinePtr> line = find_line(ground, parameters.at("line"), anchor, round, outcome);
+  if (!line) return tl::unexpected<Error>(line.error());
+  if ((*line)->closed) return fail("A closed line has no end to extend.");
+  const std::string wanted = parameters.at("ends");
+  LineEnds ends = wanted == "both"    ? LineEnds::both
+                  : wanted == "first" ? LineEnds::first
+                                      : LineEnds::last;
+  // Which end is which is decided by the anchor.
+  const auto distance = [&](VertexId a, VertexId b) {
+    return (ground.mesh.point(a) - ground.mesh.point(b)).norm();
+  };
+  const VertexId first = (*line)->vertices.front(), last = (*line)->vertices.back();
+  if (ends != LineEnds::both && round != Round::first &&
+      distance(anchor.front(), last) + distance(anchor.back(), first) <
+          distance(anchor.front(), first) + distance(anchor.back(), last))
+    ends = ends == LineEnds::first ? LineEnds::last : LineEnds::first;
+  ground.change(extend_line(ground.mesh, ground.curvatures, ground.lines, **line, ends,
+                            parameters.at("angle"), parameters.at("candidates")));
+  return outcome;
+}
+
+std::string extend_gist(const json& parameters) {
+  return line_gist(parameters) +
+         (parameters.contains("angle")
+              ? ", " + fixed_text(parameters["angle"].get<double>(), 1) + "°"
+              : "");
+}
+
+// trim_line: {line: id, vertex: v, side: first | last}: the part on that side of the vertex goes
+
+Result<json> resolve_trim(const Document& document, const json& given) {
+  ParameterReader reader("trim_line", given);
+  read_lines(reader, document, "line", "path", false);
+  const VertexId vertex = read_vertex(reader, document, "vertex");
+  const std::string side = reader.choice("side", "last", {"first", "last"});
+  reader.raw("spared");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  const Path path = path_of(reader.resolved("path"));
+  const auto place = std::find(path.begin(), path.end(), vertex);
+  if (path.front() == path.back() || place == path.end() ||
+      (side == "first" ? place == path.begin() : place + 1 == path.end())) {
+    reader.fault("vertex", "a vertex of the open line, not its end on that side");
+    return reader.finish();
+  }
+  const Path section = side == "first" ? Path(path.begin(), place + 1) : Path(place, path.end());
+  read_spared(reader, document, {section});
+  return reader.finish();
+}
+
+Result<Outcome> trim(Ground& ground, const json& parameters, Round round) {
+  const Path path = path_of(parameters.at("path"));
+  const auto place = std::find(path.begin(), path.end(), parameters.at("vertex").get<VertexId>());
+  remove_paths(
+      ground,
+      {parameters.at("side") == "first" ? Path(path.begin(), place + 1) : Path(place, path.end())},
+      parameters.at("spared"), round);
+  return Outcome{};
+}
+
+// split_line: {line: id, vertex: v}
+
+Result<json> resolve_split(const Document& document, const json& given) {
+  ParameterReader reader("split_line", given);
+  read_lines(reader, document, "line", "path", false);
+  const VertexId vertex = read_vertex(reader, document, "vertex");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  const Path path = path_of(reader.resolved("path"));
+  const bool on_line = std::find(path.begin(), path.end(), vertex) != path.end();
+  if (!on_line ||
+      (path.front() != path.back() && (vertex == path.front() || vertex == path.back())))
+    reader.fault("vertex", "a vertex inside the line");
+  return reader.finish();
+}
+
+Result<Outcome> split(Ground& ground, const json& parameters, Round) {
+  const VertexId vertex = parameters.at("vertex");
+  if (sharp_edges_at(ground.mesh, ground.lines, vertex).size() != 2)
+    return fail("No line goes through vertex " + std::to_string(vertex) +
+                " that could be split there.");
+  ground.change(LineChanges{{}, {vertex}});
+  return Outcome{};
+}
+
+// merge_lines: {a: id, b: id, angle: degrees}
+
+Result<json> resolve_merge(const Document& document, const json& given) {
+  ParameterReader reader("merge_lines", given);
+  read_lines(reader, document, "a", "path_a", true);
+  read_lines(reader, document, "b", "path_b", true);
+  read_angle(reader, document);
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  if (reader.resolved("a") == reader.resolved("b")) reader.fault("b", "another line than \"a\"");
+  return reader.finish();
+}
+
+Result<Outcome> merge(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const Result<LinePtr> a =
+      find_line(ground, parameters.at("a"), path_of(parameters.at("path_a")), round, outcome);
+  if (!a) return tl::unexpected<Error>(a.error());
+  const Result<LinePtr> b =
+      find_line(ground, parameters.at("b"), path_of(parameters.at("path_b")), round, outcome);
+  if (!b) return tl::unexpected<Error>(b.error());
+  if (*a == *b) return Outcome{"They are one line already."};
+  const Result<Path> path = bridge_between(ground.mesh, ground.curvatures, ground.lines, **a, **b,
+                                           parameters.at("angle"));
+  if (!path) return tl::unexpected<Error>(path.error());
+  ground.change(add_path(ground.mesh, ground.lines, *path, Origin::merged));
+  return outcome;
+}
+
+std::string merge_gist(const json& parameters) {
+  return parameters.contains("a") && parameters.contains("b")
+             ? parameters["a"].dump() + " and " + parameters["b"].dump()
+             : "";
+}
+
+// draw_line: {vertices: [v, ...], angle: degrees}
+
+Result<json> resolve_draw(const Document& document, const json& given) {
+  ParameterReader reader("draw_line", given);
+  read_path(reader, document, "vertices", 2);
+  read_angle(reader, document);
+  return reader.finish();
+}
+
+Result<Outcome> draw(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  Path points = path_of(parameters.at("vertices"));
+  if (round != Round::first) {
+    const std::size_t before = points.size();
+    std::erase_if(points, [&](VertexId v) {
+      return v >= ground.mesh.vertex_count() || ground.mesh.is_isolated(v);
+    });
+    if (points.size() < before)
+      outcome.adapted = std::to_string(before - points.size()) + " of its " +
+                        std::to_string(before) + " points are no longer in the working mesh.";
+  }
+  const Result<Path> path =
+      path_through(ground.mesh, ground.curvatures, points, parameters.at("angle"));
+  if (!path) return tl::unexpected<Error>(path.error());
+  ground.change(add_path(ground.mesh, ground.lines, *path, Origin::drawn));
+  return outcome;
+}
+
+std::string draw_gist(const json& parameters) {
+  return parameters.contains("vertices")
+             ? "through " + std::to_string(parameters["vertices"].size()) + " points"
+             : "";
+}
+
+// reroute_line: {line: id, from: v, to: v, via: v}: between `from` and `to` it runs through `via`
+
+Result<json> resolve_reroute(const Document& document, const json& given) {
+  ParameterReader reader("reroute_line", given);
+  read_lines(reader, document, "line", "path", false);
+  const VertexId from = read_vertex(reader, document, "from");
+  const VertexId to = read_vertex(reader, document, "to");
+  read_vertex(reader, document, "via");
+  read_angle(reader, document);
+  reader.raw("spared");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  const Path path = path_of(reader.resolved("path"));
+  const auto a = std::find(path.begin(), path.end(), from);
+  const auto b = std::find(path.begin(), path.end(), to);
+  if (a == path.end() || b == path.end() || a >= b) {
+    reader.fault("from", "vertices of the line, \"from\" before \"to\" along it");
+    return reader.finish();
+  }
+  read_spared(reader, document, {Path(a, b + 1)});
+  return reader.finish();
+}
+
+Result<Outcome> reroute(Ground& ground, const json& parameters, Round round) {
+  const Path path = path_of(parameters.at("path"));
+  const VertexId from = parameters.at("from"), to = parameters.at("to");
+  const auto a = std::find(path.begin(), path.end(), from);
+  const auto b = std::find(path.begin(), path.end(), to);
+  const VertexId via = parameters.at("via");
+  // Not back along the stretch that it leaves.
+  const auto is_left = [&](VertexId v) { return v != via && std::find(a + 1, b, v) != b; };
+  const Result<Path> way = path_through(
+      ground.mesh, ground.curvatures, {from, via, to}, parameters.at("angle"), [&](EdgeId e) {
+        return !is_left(ground.mesh.edge(e)[0]) && !is_left(ground.mesh.edge(e)[1]);
+      });
+  if (!way) return tl::unexpected<Error>(way.error());
+  remove_paths(ground, {Path(a, b + 1)}, parameters.at("spared"), round);
+  ground.change(add_path(ground.mesh, ground.lines, *way, Origin::drawn));
+  return Outcome{};
+}
+
+// recompute_lines: {lines: [ids] or region, angle, candidates, min_length}
+
+Result<json> resolve_recompute(const Document& document, const json& given) {
+  ParameterReader reader("recompute_lines", given);
+  if (reader.has("lines") == reader.has("region"))
+    reader.fault("lines", "either lines or a region");
+  else if (reader.has("lines"))
+    read_lines(reader, document, "lines", "paths", false);
+  else
+    read_region(reader, document, "region");
+  read_angle(reader, document);
+  reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
+  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  reader.real("min_length", 0.0, 0.0, longest);
+  return reader.finish();
+}
+
+Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
+  SharpLineOptions options;
+  options.angle = parameters.at("angle");
+  options.candidates = parameters.at("candidates");
+  options.min_length = parameters.at("min_length");
+  Region region;
+  if (parameters.contains("region")) {
+    region = region_of(parameters.at("region"));
+  } else {
+    constexpr double beside = 2.0;  // mean edges: a strip in which the line may run otherwise
+    region.radius = beside * ground.mesh.mean_edge_length();
+    for (const Path& path : paths_of(parameters.at("paths")))
+      region.stroke.insert(region.stroke.end(), path.begin(), path.end());
+  }
+  const auto vertices = vertices_of(ground.mesh, region);
+  if (vertices.empty()) return fail("No vertex of the region is in the working mesh.");
+  ground.change(recompute_region(ground.mesh, ground.curvatures, ground.lines, vertices, options));
+  return Outcome{};
+}
+
+std::string recompute_gist(const json& parameters) {
+  if (!parameters.contains("angle")) return "";
+  return (parameters.contains("lines") ? ids_text(parameters["lines"])
+                                       : std::string("in a region")) +
+         ", " + fixed_text(parameters["angle"].get<double>(), 1) + "°";
+}
+
+template <const Treatment& treatment>
+Result<Document> apply(const Document& document, const json& parameters, const Context&) {
+  return apply_treatment(treatment.name, document, parameters);
+}
+
+}  // namespace
+
+const Treatment delete_lines_treatment{"delete_lines", after_lines, delete_lines};
+const Treatment extend_line_treatment{"extend_line", after_lines, extend};
+const Treatment trim_line_treatment{"trim_line", after_lines, trim};
+const Treatment split_line_treatment{"split_line", after_lines, split};
+const Treatment merge_lines_treatment{"merge_lines", after_lines, merge};
+const Treatment draw_line_treatment{"draw_line", after_lines, draw};
+const Treatment reroute_line_treatment{"reroute_line", after_lines, reroute};
+const Treatment recompute_lines_treatment{"recompute_lines", after_lines, recompute};
+
+const OperationKind delete_lines_operation{
+    "delete_lines", "Delete lines", 1, resolve_delete, apply<delete_lines_treatment>, lines_gist};
+const OperationKind extend_line_operation{
+    "extend_line", "Extend line", 1, resolve_extend, apply<extend_line_treatment>, extend_gist};
+const OperationKind trim_line_operation{
+    "trim_line", "Trim line", 1, resolve_trim, apply<trim_line_treatment>, line_gist};
+const OperationKind split_line_operation{
+    "split_line", "Split line", 1, resolve_split, apply<split_line_treatment>, line_gist};
+const OperationKind merge_lines_operation{
+    "merge_lines", "Merge lines", 1, resolve_merge, apply<merge_lines_treatment>, merge_gist};
+const OperationKind draw_line_operation{
+    "draw_line", "Draw line", 1, resolve_draw, apply<draw_line_treatment>, draw_gist};
+const OperationKind reroute_line_operation{
+    "reroute_line", "Reroute line", 1, resolve_reroute, apply<reroute_line_treatment>, line_gist};
+const OperationKind recompute_lines_operation{
+    "recompute_lines", "Recompute lines", 1, resolve_recompute, apply<recompute_lines_treatment>,
+    recompute_gist};
+
+}  // namespace arris

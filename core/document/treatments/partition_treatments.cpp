@@ -1,0 +1,501 @@
+// The interactive treatments of partitions and boundaries (section 7.2).
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/base/number_text.h"
+#include "core/document/treatments/treatments.h"
+
+namespace arris {
+
+namespace {
+
+using nlohmann::json;
+
+bool after_partitions(const json&, Round round) { return round == Round::after_partitions; }
+
+/// The partitions meant by "partitions" and "anchors"; those no longer there are noted.
+std::vector<PartitionPtr> find_all(const Ground& ground, const json& parameters, Round round,
+                                   Outcome& outcome) {
+  std::vector<PartitionPtr> found;
+  const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const Result<PartitionPtr> partition =
+        find_partition(ground, ids[k], parameters.at("anchors")[k].get<Triangle>(), round, outcome);
+    if (!partition)
+      outcome.adapted = partition.error().message;
+    else if (std::find(found.begin(), found.end(), *partition) == found.end())
+      found.push_back(*partition);
+  }
+  return found;
+}
+
+Result<PartitionPtr> find_one(const Ground& ground, const json& parameters, Round round,
+                              Outcome& outcome) {
+  return find_partition(ground, parameters.at("partition"), parameters.at("anchor").get<Triangle>(),
+                        round, outcome);
+}
+
+FaceLabels labelled(const std::vector<FaceId>& faces, std::uint32_t label) {
+  FaceLabels labels;
+  for (const FaceId f : faces) labels.emplace_back(f, label);
+  return labels;
+}
+
+Result<void> needs_partitions(const Document& document) {
+  if (document.partitions.labels.empty()) return fail("Find partitions first: there are none yet.");
+  return {};
+}
+
+std::string partitions_gist(const json& parameters) {
+  if (parameters.contains("partition")) return parameters["partition"].dump();
+  if (!parameters.contains("partitions")) return "";
+  const json& ids = parameters["partitions"];
+  std::string text;
+  for (std::size_t k = 0; k < ids.size() && k < 3; ++k) text += (k > 0 ? ", " : "") + ids[k].dump();
+  return ids.size() > 3 ? std::to_string(ids.size()) : text;
+}
+
+std::string interval_gist(const json& parameters) {
+  std::string text = partitions_gist(parameters);
+  if (!parameters.contains("interval") || !parameters["interval"].is_array()) return text;
+  const json& interval = parameters["interval"];
+  text += (text.empty() ? "" : ", ") + number_text(interval[0].get<double>(), 3) + ":";
+  if (!interval[1].is_null()) text += number_text(interval[1].get<double>(), 3);
+  return text;
+}
+
+/// New partitions from the areas that pass the interval among `faces`.
+void find_again(Ground& ground, const std::vector<FaceId>& faces, const CurvatureInterval& interval,
+                std::uint32_t min_faces) {
+  FaceLabels labels;
+  std::vector<Partition> fresh;
+  for (const std::vector<FaceId>& area :
+       find_areas(ground.partition_ground(), faces, interval, min_faces)) {
+    fresh.push_back(ground.new_partition(interval));
+    for (const FaceId f : area) labels.emplace_back(f, fresh.back().id);
+  }
+  ground.change(labels, fresh);
+}
+
+constexpr std::int64_t most_faces = 0x7FFFFFFF;
+
+// connect_partitions: {partitions: [ids], lines: keep | remove}
+
+Result<json> resolve_connect(const Document& document, const json& given) {
+  ParameterReader reader("connect_partitions", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  read_partitions(reader, document, "partitions", "anchors", false);
+  const std::string lines = reader.choice("lines", "keep", {"keep", "remove"});
+  const json removed = reader.raw("removed");
+  reader.raw("spared");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  const std::vector<std::uint32_t> ids = ids_of(reader.resolved("partitions"));
+  if (ids.size() < 2) reader.fault("partitions", "two partitions at least");
+  std::vector<Path> paths;
+  const auto meant = [&](std::uint32_t id) {
+    return std::binary_search(ids.begin(), ids.end(), id);
+  };
+  if (lines == "remove")
+    for (const BoundaryPtr& boundary : *document.boundaries)
+      if (boundary->type == BoundaryType::c0 && boundary->left != boundary->right &&
+          meant(boundary->left) && meant(boundary->right)) {
+        if (document.lines.find(boundary->line)->locked)
+          reader.fault("lines", "\"keep\": line " + std::to_string(boundary->line) + " is locked");
+        paths.push_back(boundary->vertices);
+      }
+  if (!removed.is_null() && removed != json(paths))
+    reader.fault("removed", "the paths of the sharp lines between the partitions");
+  reader.set("removed", paths);
+  read_spared(reader, document, paths);
+  return reader.finish();
+}
+
+Result<Outcome> connect(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const bool removes = parameters.at("lines") == "remove";
+  if (round == Round::after_lines) {
+    remove_paths(ground, paths_of(parameters.at("removed")), parameters.at("spared"), round);
+    return outcome;
+  }
+  const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
+  if (partitions.size() < 2)
+    return round == Round::first || !outcome.adapted.empty()
+               ? Result<Outcome>(
+                     fail("Two partitions are needed to connect them. " + outcome.adapted))
+               : Result<Outcome>(Outcome{"They are one partition already."});
+  // Which of them have a boundary in common.
+  std::vector<std::size_t> group(partitions.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto place = [&](std::uint32_t id) {
+    const auto it = std::find_if(partitions.begin(), partitions.end(),
+                                 [&](const PartitionPtr& p) { return p->id == id; });
+    return static_cast<std::size_t>(it - partitions.begin());
+  };
+  for (const BoundaryPtr& boundary : ground.boundaries) {
+    const std::size_t a = place(boundary->left), b = place(boundary->right);
+    if (a == partitions.size() || b == partitions.size() || group[a] == group[b]) continue;
+    const std::size_t from = std::max(group[a], group[b]), to = std::min(group[a], group[b]);
+    std::replace(group.begin(), group.end(), from, to);
+  }
+  for (std::size_t k = 1; k < group.size(); ++k)
+    if (group[k] != group[0])
+      return fail("Partitions " + std::to_string(partitions[0]->id) + " and " +
+                  std::to_string(partitions[k]->id) +
+                  " have no common boundary, so they cannot be connected.");
+  const PartitionPtr largest = *std::max_element(
+      partitions.begin(), partitions.end(), [](const PartitionPtr& a, const PartitionPtr& b) {
+        return a->area != b->area ? a->area < b->area : a->id > b->id;
+      });
+  FaceLabels labels;
+  for (const PartitionPtr& partition : partitions)
+    if (partition != largest)
+      for (const FaceId f : faces_of(ground.mesh, ground.partitions, *partition))
+        labels.emplace_back(f, largest->id);
+  ground.change(labels);
+  if (removes && round == Round::first)
+    remove_paths(ground, paths_of(parameters.at("removed")), parameters.at("spared"), round);
+  return outcome;
+}
+
+bool connect_belongs(const json& parameters, Round round) {
+  return round == Round::after_partitions ||
+         (round == Round::after_lines && parameters.at("lines") == "remove");
+}
+
+// extend_partition: {partition: id, interval: [min, max]}
+
+Result<json> resolve_extend(const Document& document, const json& given) {
+  ParameterReader reader("extend_partition", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  read_partitions(reader, document, "partition", "anchor", false);
+  const json id = reader.raw("partition");
+  const Partition* partition =
+      id.is_number_unsigned() ? document.partitions.find(id.get<std::uint32_t>()) : nullptr;
+  read_interval(reader, "interval", partition ? partition->interval : CurvatureInterval{});
+  return reader.finish();
+}
+
+Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
+  if (!partition) return tl::unexpected<Error>(partition.error());
+  const Result<std::vector<FaceId>> faces =
+      extend_partition(ground.partition_ground(), **partition, ground.boundaries,
+                       interval_of(parameters.at("interval")));
+  if (!faces) return tl::unexpected<Error>(faces.error());
+  ground.change(labelled(*faces, (*partition)->id));
+  return outcome;
+}
+
+// remove_partitions: {partitions: [ids]}
+
+Result<json> resolve_remove(const Document& document, const json& given) {
+  ParameterReader reader("remove_partitions", given);
+  read_partitions(reader, document, "partitions", "anchors", false);
+  const json areas = reader.raw("areas");
+  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+  json own = json::array();
+  for (const std::uint32_t id : ids_of(reader.resolved("partitions")))
+    own.push_back(document.partitions.find(id)->area);
+  if (!areas.is_null() &&
+      (!areas.is_array() || areas.size() != own.size() ||
+       !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); })))
+    reader.fault("areas", "an area in mm² for each partition");
+  reader.set("areas", areas.is_null() ? own : areas);
+  return reader.finish();
+}
+
+Result<Outcome> remove(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
+  FaceLabels labels;
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const Result<PartitionPtr> partition =
+        find_partition(ground, ids[k], parameters.at("anchors")[k].get<Triangle>(), round, outcome);
+    if (!partition) {
+      outcome.adapted = partition.error().message;
+      continue;
+    }
+    // Under other thresholds it may have run together with what was never meant.
+    constexpr double far_larger = 2.0;
+    if (round != Round::first &&
+        (*partition)->area > far_larger * parameters.at("areas")[k].get<double>()) {
+      outcome.adapted = "Where partition " + std::to_string(ids[k]) +
+                        " was, there is one more than twice as large; it is left as it is.";
+      continue;
+    }
+    ++found;
+    const FaceLabels own = labelled(faces_of(ground.mesh, ground.partitions, **partition), 0);
+    labels.insert(labels.end(), own.begin(), own.end());
+  }
+  if (found == 0) return fail(outcome.adapted);
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  ground.change(labels);
+  return outcome;
+}
+
+// remove_small_partitions: {faces: n}
+
+Result<json> resolve_remove_small(const Document& document, const json& given) {
+  ParameterReader reader("remove_small_partitions", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  if (!reader.has("faces")) reader.fault("faces", "a number of faces");
+  reader.whole("faces", 1, 1, most_faces);
+  return reader.finish();
+}
+
+Result<Outcome> remove_small(Ground& ground, const json& parameters, Round round) {
+  const std::uint32_t least = parameters.at("faces");
+  FaceLabels labels;
+  for (const PartitionPtr& partition : ground.partitions.partitions)
+    if (partition->faces < least && !partition->locked)
+      for (const FaceId f : faces_of(ground.mesh, ground.partitions, *partition))
+        labels.emplace_back(f, 0u);
+  if (labels.empty() && round == Round::first)
+    return fail("No partition that is not locked has fewer than " + std::to_string(least) +
+                " faces.");
+  ground.change(labels);
+  return Outcome{};
+}
+
+std::string remove_small_gist(const json& parameters) {
+  return parameters.contains("faces") ? "under " + parameters["faces"].dump() + " faces" : "";
+}
+
+// restart_partitions: {partitions: [ids], interval, min_faces}: and the unassigned round them
+
+Result<json> resolve_restart(const Document& document, const json& given) {
+  ParameterReader reader("restart_partitions", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  read_partitions(reader, document, "partitions", "anchors", false);
+  if (!reader.has("interval")) reader.fault("interval", "an interval [min, max]");
+  read_interval(reader, "interval", {});
+  reader.whole("min_faces", 1, 1, most_faces);
+  return reader.finish();
+}
+
+Result<Outcome> restart(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
+  if (partitions.empty()) return fail(outcome.adapted);
+  std::vector<FaceId> faces;
+  for (const PartitionPtr& partition : partitions) {
+    const std::vector<FaceId> own = faces_of(ground.mesh, ground.partitions, *partition);
+    faces.insert(faces.end(), own.begin(), own.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  const std::vector<FaceId> area = with_unassigned_round(ground.partition_ground(), faces);
+  ground.change(labelled(faces, 0));
+  find_again(ground, area, interval_of(parameters.at("interval")), parameters.at("min_faces"));
+  return outcome;
+}
+
+// recompute_partitions: {region, interval, min_faces}
+
+Result<json> resolve_recompute(const Document& document, const json& given) {
+  ParameterReader reader("recompute_partitions", given);
+  read_region(reader, document, "region");
+  if (!reader.has("interval")) reader.fault("interval", "an interval [min, max]");
+  read_interval(reader, "interval", {});
+  reader.whole("min_faces", 1, 1, most_faces);
+  return reader.finish();
+}
+
+/// Faces of a region but for those of locked partitions.
+std::vector<FaceId> open_faces(const Ground& ground, const Region& region,
+                               const SharpLines* stop_at) {
+  std::vector<FaceId> faces = faces_within(ground.mesh, vertices_of(ground.mesh, region, stop_at));
+  std::unordered_map<std::uint32_t, bool> locked;
+  std::erase_if(faces, [&](FaceId f) {
+    const std::uint32_t label = ground.partitions.label(f);
+    if (label == 0) return false;
+    const auto it = locked.find(label);
+    if (it != locked.end()) return it->second;
+    const bool is_locked = ground.partitions.find(label)->locked;
+    locked[label] = is_locked;
+    return is_locked;
+  });
+  return faces;
+}
+
+Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
+  const std::vector<FaceId> faces = open_faces(ground, region_of(parameters.at("region")), nullptr);
+  if (faces.empty())
+    return fail("There is no face in the region that is not locked: brush a wider one.");
+  ground.change(labelled(faces, 0));
+  find_again(ground, faces, interval_of(parameters.at("interval")), parameters.at("min_faces"));
+  return Outcome{};
+}
+
+std::string recompute_gist(const json& parameters) {
+  return "in a region, " + interval_gist(parameters);
+}
+
+// split_partition: {partition: id, vertices: [v, ...], angle}
+
+Result<json> resolve_split(const Document& document, const json& given) {
+  ParameterReader reader("split_partition", given);
+  read_partitions(reader, document, "partition", "anchor", false);
+  read_path(reader, document, "vertices", 2);
+  reader.real("angle", SharpLineOptions().angle, 0.1, 179.9);
+  return reader.finish();
+}
+
+Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
+  if (!partition) return tl::unexpected<Error>(partition.error());
+  const auto is_inside = [&](EdgeId e) {
+    const auto faces = ground.mesh.edge_faces(e);
+    return std::all_of(faces.begin(), faces.end(), [&](FaceId f) {
+      return f != no_id && ground.partitions.label(f) == (*partition)->id;
+    });
+  };
+  const Result<Path> path =
+      path_through(ground.mesh, ground.curvatures, path_of(parameters.at("vertices")),
+                   parameters.at("angle"), is_inside);
+  if (!path) return tl::unexpected<Error>(path.error());
+  const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), **partition, *path);
+  if (!part) return tl::unexpected<Error>(part.error());
+  const Partition fresh = ground.new_partition((*partition)->interval);
+  ground.change(labelled(*part, fresh.id), {fresh});
+  return outcome;
+}
+
+// paint_partition: {partition: id (0: into none), region}
+
+Result<json> resolve_paint(const Document& document, const json& given) {
+  ParameterReader reader("paint_partition", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  const json id = given.contains("partition") ? given["partition"] : json();
+  if (id == 0u) {
+    reader.raw("partition");
+    reader.raw("anchor");
+    reader.set("partition", 0u);
+    reader.set("anchor", Triangle{});
+  } else {
+    read_partitions(reader, document, "partition", "anchor", false);
+  }
+  read_region(reader, document, "region");
+  return reader.finish();
+}
+
+Result<Outcome> paint(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  std::uint32_t label = 0;
+  if (parameters.at("partition") != 0u) {
+    const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
+    if (!partition) return tl::unexpected<Error>(partition.error());
+    label = (*partition)->id;
+  }
+  std::vector<FaceId> faces = open_faces(ground, region_of(parameters.at("region")), &ground.lines);
+  if (label != 0) faces = joined_to(ground.partition_ground(), faces, label);
+  std::erase_if(faces, [&](FaceId f) { return ground.partitions.label(f) == label; });
+  if (faces.empty() && round == Round::first)
+    return fail(label == 0 ? "Every face under the brush is unassigned or locked already."
+                           : "The brush touches no face beside partition " + std::to_string(label) +
+                                 " that could join it.");
+  ground.change(labelled(faces, label));
+  return outcome;
+}
+
+std::string paint_gist(const json& parameters) {
+  return !parameters.contains("partition") ? ""
+         : parameters["partition"] == 0u   ? "out"
+                                           : "into " + parameters["partition"].dump();
+}
+
+// smooth_boundaries: {partitions: [ids], all where empty; rounds}
+
+Result<json> resolve_smooth(const Document& document, const json& given) {
+  ParameterReader reader("smooth_boundaries", given);
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  json with_list = given;
+  if (!with_list.contains("partitions")) with_list["partitions"] = json::array();
+  ParameterReader complete("smooth_boundaries", with_list);
+  read_partitions(complete, document, "partitions", "anchors", true, true);
+  complete.whole("rounds", 10, 1, 1000);
+  return complete.finish();
+}
+
+Result<Outcome> smooth(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  std::unordered_set<std::uint32_t> ids;
+  for (const PartitionPtr& partition : find_all(ground, parameters, round, outcome))
+    ids.insert(partition->id);
+  if (ids.empty() && !parameters.at("partitions").empty()) return fail(outcome.adapted);
+  ground.change(smooth_boundaries(ground.partition_ground(), ground.boundaries, ids,
+                                  parameters.at("rounds")));
+  return outcome;
+}
+
+template <const Treatment& treatment>
+Result<Document> apply(const Document& document, const json& parameters, const Context&) {
+  return apply_treatment(treatment.name, document, parameters);
+}
+
+}  // namespace
+
+const Treatment connect_partitions_treatment{"connect_partitions", connect_belongs, connect};
+const Treatment extend_partition_treatment{"extend_partition", after_partitions, extend};
+const Treatment remove_partitions_treatment{"remove_partitions", after_partitions, remove};
+const Treatment remove_small_partitions_treatment{"remove_small_partitions", after_partitions,
+                                                  remove_small};
+const Treatment restart_partitions_treatment{"restart_partitions", after_partitions, restart};
+const Treatment recompute_partitions_treatment{"recompute_partitions", after_partitions, recompute};
+const Treatment split_partition_treatment{"split_partition", after_partitions, split};
+const Treatment paint_partition_treatment{"paint_partition", after_partitions, paint};
+const Treatment smooth_boundaries_treatment{"smooth_boundaries", after_partitions, smooth};
+
+const OperationKind connect_partitions_operation{"connect_partitions",
+                                                 "Connect partitions",
+                                                 1,
+                                                 resolve_connect,
+                                                 apply<connect_partitions_treatment>,
+                                                 partitions_gist};
+const OperationKind extend_partition_operation{
+    "extend_partition", "Extend partition", 1, resolve_extend, apply<extend_partition_treatment>,
+    interval_gist};
+const OperationKind remove_partitions_operation{
+    "remove_partitions", "Remove partitions", 1, resolve_remove, apply<remove_partitions_treatment>,
+    partitions_gist};
+const OperationKind remove_small_partitions_operation{"remove_small_partitions",
+                                                      "Remove small partitions",
+                                                      1,
+                                                      resolve_remove_small,
+                                                      apply<remove_small_partitions_treatment>,
+                                                      remove_small_gist};
+const OperationKind restart_partitions_operation{"restart_partitions",
+                                                 "Restart partitions",
+                                                 1,
+                                                 resolve_restart,
+                                                 apply<restart_partitions_treatment>,
+                                                 interval_gist};
+const OperationKind recompute_partitions_operation{"recompute_partitions",
+                                                   "Recompute partitions",
+                                                   1,
+                                                   resolve_recompute,
+                                                   apply<recompute_partitions_treatment>,
+                                                   recompute_gist};
+const OperationKind split_partition_operation{
+    "split_partition", "Split partition", 1, resolve_split, apply<split_partition_treatment>,
+    partitions_gist};
+const OperationKind paint_partition_operation{
+    "paint_partition", "Paint partition", 1, resolve_paint, apply<paint_partition_treatment>,
+    paint_gist};
+const OperationKind smooth_boundaries_operation{
+    "smooth_boundaries", "Smooth boundaries", 1, resolve_smooth, apply<smooth_boundaries_treatment>,
+    partitions_gist};
+
+}  // namespace arris

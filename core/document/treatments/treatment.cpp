@@ -1,0 +1,485 @@
+#include "core/document/treatments/treatment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+
+#include "core/document/treatments/treatments.h"
+#include "core/sharp_lines/sharp_lines.h"
+
+namespace arris {
+
+namespace {
+
+std::vector<EdgeId> edges_on(const Mesh& mesh, const Path& path) {
+  std::vector<EdgeId> edges;
+  for (const HalfEdgeId h : half_edges_of(mesh, path)) edges.push_back(h >> 1);
+  return edges;
+}
+
+bool is_list_of_vertices(const nlohmann::json& json) {
+  return json.is_array() && std::all_of(json.begin(), json.end(), [](const auto& v) {
+           return v.is_number_unsigned() && v.template get<std::uint64_t>() < no_id;
+         });
+}
+
+/// Reads ids: one number under a singular name, a list under a plural one.
+std::vector<std::uint32_t> read_ids(ParameterReader& reader, const std::string& name) {
+  const nlohmann::json given = reader.raw(name);
+  const bool is_list = name.back() == 's';
+  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
+  if (!is_list_of_vertices(list)) {
+    reader.fault(name, is_list ? "a list of ids" : "an id");
+    return {};
+  }
+  std::vector<std::uint32_t> ids = list;
+  if (is_list) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    reader.set(name, ids);
+  } else {
+    reader.set(name, given);
+  }
+  return ids;
+}
+
+}  // namespace
+
+void Ground::change(const LineChanges& changes) {
+  SharpLines edited = edit_lines(mesh, curvatures, lines, changes, next_id);
+  std::vector<EdgeId> touched;
+  for (const auto& [e, origin] : changes.edges) touched.push_back(e);
+  boundaries = update_boundaries(mesh, curvatures, boundaries, {lines, partitions},
+                                 {edited, partitions}, touched);
+  lines = std::move(edited);
+}
+
+void Ground::change(const FaceLabels& labels, const std::vector<Partition>& fresh) {
+  EditedPartitions edited = edit_partitions(partition_ground(), labels, fresh, next_id);
+  boundaries = update_boundaries(mesh, curvatures, boundaries, {lines, partitions},
+                                 {lines, edited.partitions}, edited.touched);
+  partitions = std::move(edited.partitions);
+}
+
+Partition Ground::new_partition(const CurvatureInterval& interval) {
+  Partition partition;
+  partition.id = next_id++;
+  partition.criterion = criterion;
+  partition.interval = interval;
+  return partition;
+}
+
+Ground ground_of(const Document& document) {
+  const Criterion criterion = document.criterion();
+  Ground ground{*document.mesh,
+                *document.curvatures,
+                values_of(*document.shown_curvatures(), criterion),
+                document.lines,
+                document.partitions,
+                *document.boundaries,
+                document.next_id,
+                criterion};
+  return ground;
+}
+
+const Treatment* find_treatment(std::string_view operation) {
+  for (const Treatment* treatment : all_treatments())
+    if (treatment->name == operation) return treatment;
+  return nullptr;
+}
+
+Result<Document> apply_treatment(std::string_view name, const Document& document,
+                                 const nlohmann::json& parameters) {
+  const Treatment& treatment = *find_treatment(name);
+  Ground ground = ground_of(document);
+  if (const auto done = treatment.perform(ground, parameters, Round::first); !done)
+    return tl::unexpected<Error>(done.error());
+  Document result = document;
+  result.lines = std::move(ground.lines);
+  result.partitions = std::move(ground.partitions);
+  result.boundaries = std::make_shared<const Boundaries>(std::move(ground.boundaries));
+  result.next_id = ground.next_id;
+  result.corrections.push_back(std::make_shared<const Correction>(
+      result.next_id++, Operation{std::string(name), parameters}, CorrectionState::applied, ""));
+  if (treatment.belongs(parameters, Round::after_lines))
+    for (std::optional<Step>* step : {&result.smooth_curvature, &result.find_partitions})
+      if (*step) (*step)->out_of_date = true;
+  return result;
+}
+
+std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections, Ground& ground,
+                                   Round round, bool switched_on) {
+  std::vector<CorrectionPtr> result;
+  for (const CorrectionPtr& correction : corrections) {
+    const Treatment& treatment = *find_treatment(correction->operation.name);
+    if (!treatment.belongs(correction->operation.parameters, round)) {
+      result.push_back(correction);
+      continue;
+    }
+    CorrectionState state = CorrectionState::off;
+    std::string message;
+    if (switched_on) {
+      const Result<Outcome> done =
+          treatment.perform(ground, correction->operation.parameters, round);
+      state = !done                   ? CorrectionState::failed
+              : done->adapted.empty() ? CorrectionState::applied
+                                      : CorrectionState::adapted;
+      message = done ? done->adapted : done.error().message;
+    }
+    if (state == correction->state && message == correction->message)
+      result.push_back(correction);
+    else
+      result.push_back(std::make_shared<const Correction>(correction->id, correction->operation,
+                                                          state, message));
+  }
+  return result;
+}
+
+Result<void> refind_lines(Document& document, const std::optional<nlohmann::json>& parameters,
+                          const Context& context) {
+  const Mesh& mesh = *document.mesh;
+  const Curvatures& curvatures = *document.curvatures;
+  std::vector<Origin> edges(mesh.edge_count(), Origin::none);
+  bool switched_on = true;
+  if (parameters) {
+    SharpLineOptions options;
+    options.angle = parameters->at("angle");
+    options.candidates = parameters->at("candidates");
+    options.min_length = parameters->at("min_length");
+    options.parallel_distance = parameters->at("parallel_distance");
+    options.bridge_gap = parameters->at("bridge_gap");
+    switched_on = parameters->at("corrections");
+    Result<std::vector<Origin>> found = find_sharp_edges(mesh, curvatures, options, context);
+    if (!found) return tl::unexpected<Error>(found.error());
+    edges = std::move(*found);
+  }
+  for (const LinePtr& line : document.lines.lines)
+    if (line->locked)
+      for (const EdgeId e : edges_on(mesh, line->vertices)) edges[e] = document.lines.edges[e];
+
+  const bool corrected =
+      std::any_of(document.corrections.begin(), document.corrections.end(), [](const auto& c) {
+        return find_treatment(c->operation.name)
+            ->belongs(c->operation.parameters, Round::after_lines);
+      });
+  SharpLines previous = document.lines;
+  if (corrected) {
+    // Ids count from 1 here: which lines are which is only decided once all is done.
+    Ground ground{mesh, curvatures, curvatures.kabs, {}, {}, {}};
+    SharpLines locked;
+    for (const LinePtr& line : document.lines.lines)
+      if (line->locked) {
+        auto copy = std::make_shared<Line>(*line);
+        copy->id = ground.next_id++;
+        locked.lines.push_back(std::move(copy));
+      }
+    ground.lines = relink_lines(mesh, curvatures, edges, locked, ground.next_id);
+    ground.boundaries = derive_boundaries(mesh, curvatures, ground.lines, {});
+    document.corrections = correct(document.corrections, ground, Round::after_lines, switched_on);
+    for (EdgeId e = 0; e < edges.size(); ++e) edges[e] = ground.lines.edges[e];
+    previous.cuts = ground.lines.cuts;
+  } else {
+    previous.cuts.clear();
+  }
+  document.lines = relink_lines(mesh, curvatures, edges, previous, document.next_id);
+  return {};
+}
+
+Result<void> refind_partitions(Document& document, const std::optional<nlohmann::json>& parameters,
+                               const Context& context) {
+  const Mesh& mesh = *document.mesh;
+  PartitionOptions options;
+  bool switched_on = true;
+  if (parameters) {
+    options.criterion = parameters->at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
+    options.min_faces = parameters->at("min_faces");
+    options.fill_holes = parameters->at("fill_holes");
+    for (const auto& interval : parameters->at("intervals"))
+      options.intervals.push_back(interval_of(interval));
+    switched_on = parameters->at("corrections");
+  }
+  const std::vector<double>& values = values_of(*document.shown_curvatures(), options.criterion);
+  std::vector<Partition> locked;
+  std::vector<bool> taken;
+  for (const PartitionPtr& partition : document.partitions.partitions)
+    if (partition->locked) {
+      taken.resize(mesh.face_count(), false);
+      locked.push_back(*partition);
+      for (const FaceId f : faces_of(mesh, document.partitions, *partition)) taken[f] = true;
+    }
+  Result<FoundPartitions> found =
+      propagate_fronts(mesh, values, document.lines, options, context, taken);
+  if (!found) return tl::unexpected<Error>(found.error());
+  // Locked partitions stay as they are, numbered after the found ones.
+  for (Partition& partition : locked) {
+    const auto label = static_cast<std::uint32_t>(found->partitions.size() + 1);
+    for (const FaceId f : faces_of(mesh, document.partitions, partition)) found->labels[f] = label;
+    partition.id = 0;
+    found->partitions.push_back(partition);
+  }
+  const bool corrected =
+      std::any_of(document.corrections.begin(), document.corrections.end(), [](const auto& c) {
+        return find_treatment(c->operation.name)
+            ->belongs(c->operation.parameters, Round::after_partitions);
+      });
+  if (corrected) {
+    Ground ground{mesh, *document.curvatures, values, document.lines, {}, {}};
+    ground.criterion = options.criterion;
+    ground.partitions = number_partitions(mesh, *found, {}, ground.next_id);
+    ground.boundaries =
+        derive_boundaries(mesh, *document.curvatures, ground.lines, ground.partitions);
+    document.corrections =
+        correct(document.corrections, ground, Round::after_partitions, switched_on);
+    std::vector<std::uint32_t> place(ground.next_id, 0);
+    found->partitions.clear();
+    for (const PartitionPtr& partition : ground.partitions.partitions) {
+      found->partitions.push_back(*partition);
+      found->partitions.back().id = 0;
+      place[partition->id] = static_cast<std::uint32_t>(found->partitions.size());
+    }
+    for (FaceId f = 0; f < mesh.face_count(); ++f)
+      found->labels[f] = place[ground.partitions.labels[f]];
+  }
+  document.partitions = number_partitions(mesh, *found, document.partitions, document.next_id);
+  return {};
+}
+
+void read_lines(ParameterReader& reader, const Document& document, const std::string& name,
+                const std::string& anchors, bool may_be_locked) {
+  const std::vector<std::uint32_t> ids = read_ids(reader, name);
+  const nlohmann::json given = reader.raw(anchors);
+  const bool is_list = name.back() == 's';
+  if (is_list && ids.empty()) reader.fault(name, "a line at least");
+  nlohmann::json paths = nlohmann::json::array();
+  for (const std::uint32_t id : ids) {
+    const Line* line = document.lines.find(id);
+    if (!line) {
+      reader.fault(name, "ids of lines; there is no line " + std::to_string(id));
+      return;
+    }
+    if (line->locked && !may_be_locked) {
+      reader.fault(name, "lines that are not locked; unlock line " + std::to_string(id) + " first");
+      return;
+    }
+    paths.push_back(line->vertices);
+  }
+  if (given.is_null()) {
+    reader.set(anchors, is_list ? paths : paths[0]);
+    return;
+  }
+  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
+  if (!list.is_array() || list.size() != ids.size() ||
+      !std::all_of(list.begin(), list.end(),
+                   [](const auto& p) { return is_list_of_vertices(p) && p.size() >= 2; }))
+    reader.fault(anchors, "a path of vertices for each line");
+  reader.set(anchors, given);
+}
+
+void read_partitions(ParameterReader& reader, const Document& document, const std::string& name,
+                     const std::string& anchors, bool may_be_locked, bool may_be_empty) {
+  const std::vector<std::uint32_t> ids = read_ids(reader, name);
+  const nlohmann::json given = reader.raw(anchors);
+  const bool is_list = name.back() == 's';
+  if (is_list && ids.empty() && !may_be_empty) reader.fault(name, "a partition at least");
+  nlohmann::json faces = nlohmann::json::array();
+  for (const std::uint32_t id : ids) {
+    const Partition* partition = document.partitions.find(id);
+    if (!partition) {
+      reader.fault(name, "ids of partitions; there is no partition " + std::to_string(id));
+      return;
+    }
+    if (partition->locked && !may_be_locked) {
+      reader.fault(name, "partitions that are not locked; unlock partition " + std::to_string(id) +
+                             " first");
+      return;
+    }
+    faces.push_back(partition->anchor);
+  }
+  if (given.is_null()) {
+    reader.set(anchors, is_list || faces.empty() ? faces : faces[0]);
+    return;
+  }
+  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
+  if (!list.is_array() || list.size() != ids.size() ||
+      !std::all_of(list.begin(), list.end(),
+                   [](const auto& t) { return is_list_of_vertices(t) && t.size() == 3; }))
+    reader.fault(anchors, "a face [a, b, c] for each partition");
+  reader.set(anchors, given);
+}
+
+Path read_path(ParameterReader& reader, const Document& document, const std::string& name,
+               std::size_t least) {
+  const nlohmann::json given = reader.raw(name);
+  const Mesh& mesh = *document.mesh;
+  if (!is_list_of_vertices(given) || given.size() < least ||
+      !std::all_of(given.begin(), given.end(), [&](const auto& v) {
+        const VertexId vertex = v;
+        return vertex < mesh.vertex_count() && !mesh.is_isolated(vertex);
+      })) {
+    reader.fault(name,
+                 "a list of " + std::to_string(least) + " or more vertices of the working mesh");
+    return {};
+  }
+  reader.set(name, given);
+  return path_of(given);
+}
+
+VertexId read_vertex(ParameterReader& reader, const Document& document, const std::string& name) {
+  const Mesh& mesh = *document.mesh;
+  const nlohmann::json given = reader.raw(name);
+  if (!given.is_number_unsigned() || given.get<std::uint64_t>() >= mesh.vertex_count() ||
+      mesh.is_isolated(given)) {
+    reader.fault(name, "a vertex of the working mesh");
+    return no_id;
+  }
+  reader.set(name, given);
+  return given;
+}
+
+void read_region(ParameterReader& reader, const Document& document, const std::string& name) {
+  const nlohmann::json given = reader.raw(name);
+  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  if (!given.is_object() || given.size() != 2 || !given.contains("vertices") ||
+      !given.contains("radius") || !is_list_of_vertices(given["vertices"]) ||
+      given["vertices"].empty() || !given["radius"].is_number() ||
+      !(given["radius"].get<double>() >= 0.0) || given["radius"].get<double>() > longest)
+    reader.fault(name, "a region {\"vertices\": [...], \"radius\": mm}");
+  reader.set(name, given);
+}
+
+void read_interval(ParameterReader& reader, const std::string& name,
+                   const CurvatureInterval& otherwise) {
+  const nlohmann::json given = reader.raw(name);
+  if (given.is_null()) {
+    reader.set(name, {otherwise.min, std::isfinite(otherwise.max) ? nlohmann::json(otherwise.max)
+                                                                  : nlohmann::json()});
+    return;
+  }
+  if (!given.is_array() || given.size() != 2 || !given[0].is_number() ||
+      !(given[1].is_number() || given[1].is_null()) || !std::isfinite(given[0].get<double>()) ||
+      given[0].get<double>() < 0.0 ||
+      !(given[1].is_null() || given[1].get<double>() > given[0].get<double>()))
+    reader.fault(name, "an interval [min, max] with 0 <= min < max");
+  reader.set(name, given);
+}
+
+Path path_of(const nlohmann::json& json) { return json.get<Path>(); }
+std::vector<Path> paths_of(const nlohmann::json& json) { return json.get<std::vector<Path>>(); }
+std::vector<std::uint32_t> ids_of(const nlohmann::json& json) {
+  return json.get<std::vector<std::uint32_t>>();
+}
+Region region_of(const nlohmann::json& json) {
+  return {json.at("vertices").get<Path>(), json.at("radius")};
+}
+CurvatureInterval interval_of(const nlohmann::json& json) {
+  return {json[0],
+          json[1].is_null() ? std::numeric_limits<double>::infinity() : json[1].get<double>()};
+}
+
+Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,
+                          Outcome& outcome) {
+  const auto by_id = [&](std::uint32_t wanted) {
+    return *std::find_if(ground.lines.lines.begin(), ground.lines.lines.end(),
+                         [&](const LinePtr& line) { return line->id == wanted; });
+  };
+  if (round == Round::first) return by_id(id);
+  std::vector<std::uint32_t> ids =
+      lines_through(ground.mesh, ground.lines, edges_on(ground.mesh, anchor));
+  if (ids.empty()) {
+    // The mesh may be another one: any line through vertices of the anchor.
+    std::vector<EdgeId> edges;
+    for (const VertexId v : anchor)
+      if (v < ground.mesh.vertex_count())
+        for (const HalfEdgeId h : sharp_edges_at(ground.mesh, ground.lines, v))
+          edges.push_back(h >> 1);
+    ids = lines_through(ground.mesh, ground.lines, edges);
+  }
+  if (ids.empty()) return fail("The line it was made on is not found with these thresholds.");
+  LinePtr line = by_id(ids.front());
+  if (line->vertices != anchor)
+    outcome.adapted = "The line it was made on runs a little differently now.";
+  return line;
+}
+
+Result<PartitionPtr> find_partition(const Ground& ground, std::uint32_t id, const Triangle& anchor,
+                                    Round round, Outcome& outcome) {
+  std::uint32_t label = id;
+  if (round != Round::first) {
+    label = 0;
+    if (const auto f = ground.mesh.find_face(anchor)) {
+      label = ground.partitions.label(*f);
+    } else {
+      for (const VertexId v : anchor)
+        if (v < ground.mesh.vertex_count())
+          ground.mesh.for_ring(v, [&](HalfEdgeId h) {
+            if (label == 0 && ground.mesh.face(h) != no_id)
+              label = ground.partitions.label(ground.mesh.face(h));
+          });
+      if (label != 0) outcome.adapted = "The mesh has changed since; found by a vertex.";
+    }
+    if (label == 0)
+      return fail("Where partition " + std::to_string(id) + " was, no face is assigned now.");
+  }
+  for (const PartitionPtr& partition : ground.partitions.partitions)
+    if (partition->id == label) return partition;
+  return fail("There is no partition " + std::to_string(id) + ".");
+}
+
+void remove_paths(Ground& ground, const std::vector<Path>& paths, const nlohmann::json& spared,
+                  Round round) {
+  std::unordered_set<EdgeId> kept;
+  for (const auto& pair : spared)
+    if (const auto e = ground.mesh.find_edge(pair[0], pair[1])) kept.insert(*e);
+  LineChanges changes;
+  for (const Path& path : paths) {
+    const LineChanges own = remove_path(ground.mesh, ground.lines, path);
+    changes.edges.insert(changes.edges.end(), own.edges.begin(), own.edges.end());
+    if (round == Round::first) continue;
+    for (const EdgeId e : found_near(ground.mesh, ground.lines, path))
+      if (!kept.contains(e)) changes.edges.emplace_back(e, Origin::none);
+  }
+  if (round != Round::first) {  // approved since
+    std::vector<EdgeId> meant;
+    for (const auto& [e, origin] : changes.edges) meant.push_back(e);
+    std::unordered_set<EdgeId> locked;
+    for (const std::uint32_t id : lines_through(ground.mesh, ground.lines, meant))
+      if (const Line& line = *ground.lines.find(id); line.locked)
+        for (const EdgeId e : edges_on(ground.mesh, line.vertices)) locked.insert(e);
+    std::erase_if(changes.edges, [&](const auto& change) { return locked.contains(change.first); });
+  }
+  std::sort(changes.edges.begin(), changes.edges.end());
+  changes.edges.erase(std::unique(changes.edges.begin(), changes.edges.end()), changes.edges.end());
+  ground.change(changes);
+}
+
+void read_spared(ParameterReader& reader, const Document& document,
+                 const std::vector<Path>& paths) {
+  const nlohmann::json given = reader.raw("spared");
+  if (given.is_null()) {
+    reader.set("spared", spared_near(document, paths));
+    return;
+  }
+  if (!given.is_array() || !std::all_of(given.begin(), given.end(), [](const auto& p) {
+        return is_list_of_vertices(p) && p.size() == 2;
+      }))
+    reader.fault("spared", "a list of edges [a, b]");
+  reader.set("spared", given);
+}
+
+nlohmann::json spared_near(const Document& document, const std::vector<Path>& paths) {
+  std::vector<EdgeId> own, near;
+  for (const Path& path : paths) {
+    for (const EdgeId e : edges_on(*document.mesh, path)) own.push_back(e);
+    for (const EdgeId e : found_near(*document.mesh, document.lines, path)) near.push_back(e);
+  }
+  std::sort(own.begin(), own.end());
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  nlohmann::json spared = nlohmann::json::array();
+  for (const EdgeId e : near)
+    if (!std::binary_search(own.begin(), own.end(), e)) spared.push_back(document.mesh->edge(e));
+  return spared;
+}
+
+}  // namespace arris

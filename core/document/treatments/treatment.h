@@ -1,0 +1,113 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/document/document.h"
+#include "core/document/parameters.h"
+#include "core/partitions/interactive_treatments.h"
+#include "core/sharp_lines/interactive_treatments.h"
+
+/// What the treatments by hand have in common (sections 6.3.2 and 7.2): their targets, how they
+/// change a document, and how they are done again as corrections.
+namespace arris {
+
+/// Lines, partitions and boundaries of one mesh while treatments change them, at a cost that
+/// follows the changes.
+struct Ground {
+  const Mesh& mesh;
+  const Curvatures& curvatures;       ///< Of the mesh: lines are found by these.
+  const std::vector<double>& values;  ///< The criterion: partitions are found by these.
+  SharpLines lines;
+  Partitions partitions;
+  Boundaries boundaries;
+  std::uint32_t next_id = 1;
+  Criterion criterion = Criterion::kabs;
+
+  PartitionGround partition_ground() const { return {mesh, values, lines, partitions}; }
+  void change(const LineChanges& changes);
+  void change(const FaceLabels& labels, const std::vector<Partition>& fresh = {});
+  /// A new partition without faces yet; takes an id.
+  Partition new_partition(const CurvatureInterval& interval);
+};
+
+/// The ground of a document.
+Ground ground_of(const Document& document);
+
+/// When a treatment is done: for the first time, or again on lines or partitions found anew.
+enum class Round { first, after_lines, after_partitions };
+
+/// What a treatment did: a note where it had to adapt to what it found. Errors of a treatment leave
+/// the ground as it was.
+struct Outcome {
+  std::string adapted;  ///< Empty: just as meant.
+};
+
+/// A treatment by hand.
+struct Treatment {
+  std::string_view name;
+  /// Whether it is done again after lines, or partitions, were found again.
+  bool (*belongs)(const nlohmann::json& parameters, Round round);
+  Result<Outcome> (*perform)(Ground&, const nlohmann::json& parameters, Round round);
+};
+
+const Treatment* find_treatment(std::string_view operation);
+
+/// Performs it for the first time, and keeps it as a correction.
+Result<Document> apply_treatment(std::string_view name, const Document& document,
+                                 const nlohmann::json& parameters);
+
+/// Does the corrections of a document again, in order, on lines (or partitions) found anew.
+std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections, Ground& ground,
+                                   Round round, bool switched_on);
+
+/// Lines found again on the current mesh with these parameters of find_sharp_lines (absent: none
+/// are found, only drawn), and corrected.
+Result<void> refind_lines(Document& document, const std::optional<nlohmann::json>& parameters,
+                          const Context& context);
+/// The same for partitions.
+Result<void> refind_partitions(Document& document, const std::optional<nlohmann::json>& parameters,
+                               const Context& context);
+
+// Targets. A line is named by "line" or in "lines", a partition by "partition" or in "partitions",
+// with anchors in "path", "paths", "anchor" and "anchors".
+
+using Path = std::vector<VertexId>;
+
+/// Reads the ids under `name` and their anchors under `anchors`: those given, or those of the
+/// lines (partitions) that the document has. Faults: no id, one that the document does not have.
+void read_lines(ParameterReader& reader, const Document& document, const std::string& name,
+                const std::string& anchors, bool may_be_locked);
+void read_partitions(ParameterReader& reader, const Document& document, const std::string& name,
+                     const std::string& anchors, bool may_be_locked, bool may_be_empty = false);
+/// Reads a path of at least `least` vertices of the current mesh.
+Path read_path(ParameterReader& reader, const Document& document, const std::string& name,
+               std::size_t least);
+VertexId read_vertex(ParameterReader& reader, const Document& document, const std::string& name);
+void read_region(ParameterReader& reader, const Document& document, const std::string& name);
+void read_interval(ParameterReader& reader, const std::string& name,
+                   const CurvatureInterval& otherwise);
+
+Path path_of(const nlohmann::json& json);
+std::vector<Path> paths_of(const nlohmann::json& json);
+std::vector<std::uint32_t> ids_of(const nlohmann::json& json);
+Region region_of(const nlohmann::json& json);
+CurvatureInterval interval_of(const nlohmann::json& json);
+
+/// The line meant: by its id at first, later by its anchor; `outcome` says where it is not the
+/// same.
+Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,
+                          Outcome& outcome);
+Result<PartitionPtr> find_partition(const Ground& ground, std::uint32_t id, const Triangle& anchor,
+                                    Round round, Outcome& outcome);
+
+/// Deletes along paths. Again: with what is found near them, but for `spared` edges.
+void remove_paths(Ground& ground, const std::vector<Path>& paths, const nlohmann::json& spared,
+                  Round round);
+/// Reads the edges that a deletion along `paths` has to spare: those given, or those of now.
+void read_spared(ParameterReader& reader, const Document& document, const std::vector<Path>& paths);
+/// Edges found near `paths` and not on them, as vertex pairs: what a deletion has to spare.
+nlohmann::json spared_near(const Document& document, const std::vector<Path>& paths);
+
+}  // namespace arris

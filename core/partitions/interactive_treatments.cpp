@@ -1,0 +1,508 @@
+#include "core/partitions/interactive_treatments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+
+namespace arris {
+
+namespace {
+
+template <class Visit>
+void for_sides(const Mesh& mesh, FaceId f, const Visit& visit) {
+  HalfEdgeId h = mesh.face_half_edge(f);
+  for (int k = 0; k < 3; ++k, h = mesh.next(h)) visit(h);
+}
+
+/// Faces joined to `starts` by edges, all of which satisfy `may_enter(half-edge crossed, face)`.
+template <class MayEnter>
+std::vector<FaceId> flood(const Mesh& mesh, const std::vector<FaceId>& starts,
+                          const MayEnter& may_enter) {
+  std::unordered_set<FaceId> reached(starts.begin(), starts.end());
+  std::vector<FaceId> front(starts);
+  for (std::size_t next = 0; next < front.size(); ++next)
+    for_sides(mesh, front[next], [&](HalfEdgeId h) {
+      const FaceId f = mesh.face(Mesh::opposite(h));
+      if (f != no_id && !reached.contains(f) && may_enter(h, f)) {
+        reached.insert(f);
+        front.push_back(f);
+      }
+    });
+  return front;
+}
+
+/// Pieces that are no longer joined to the rest of a label, the largest piece left out. `starts`:
+/// faces of the label beside those that left it. The fronts from all of them grow in turn, so that
+/// the cost follows the small pieces (and the way round where nothing was parted).
+std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
+                                               const ChunkedArray<std::uint32_t>& labels,
+                                               std::uint32_t label,
+                                               const std::vector<FaceId>& starts) {
+  std::vector<std::uint32_t> parent(starts.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+  };
+  std::unordered_map<FaceId, std::uint32_t> front_of;
+  std::vector<std::queue<FaceId>> fronts(starts.size());
+  for (std::uint32_t k = 0; k < starts.size(); ++k) {
+    front_of[starts[k]] = k;
+    fronts[k].push(starts[k]);
+  }
+  std::vector<bool> grows(starts.size());
+  for (;;) {
+    std::fill(grows.begin(), grows.end(), false);
+    for (std::uint32_t k = 0; k < fronts.size(); ++k)
+      if (!fronts[k].empty()) grows[root(k)] = true;
+    if (std::count(grows.begin(), grows.end(), true) <= 1) break;
+    for (std::uint32_t k = 0; k < fronts.size(); ++k) {
+      if (fronts[k].empty()) continue;
+      const FaceId f = fronts[k].front();
+      fronts[k].pop();
+      for_sides(mesh, f, [&](HalfEdgeId h) {
+        const FaceId g = mesh.face(Mesh::opposite(h));
+        if (g == no_id || labels[g] != label) return;
+        const auto [it, fresh] = front_of.try_emplace(g, k);
+        if (fresh)
+          fronts[k].push(g);
+        else if (root(k) != root(it->second))
+          parent[std::max(root(k), root(it->second))] = std::min(root(k), root(it->second));
+      });
+    }
+  }
+  std::map<std::uint32_t, std::vector<FaceId>> pieces;
+  for (const auto& [f, k] : front_of) pieces[root(k)].push_back(f);
+  std::vector<std::vector<FaceId>> result;
+  std::size_t largest = 0;
+  bool rest_grows = false;
+  for (auto& [k, faces] : pieces) {
+    std::sort(faces.begin(), faces.end());
+    if (grows[k])
+      rest_grows = true;
+    else
+      result.push_back(std::move(faces));
+  }
+  if (!rest_grows && !result.empty()) {
+    for (std::size_t k = 1; k < result.size(); ++k)
+      if (result[k].size() > result[largest].size() ||
+          (result[k].size() == result[largest].size() && result[k] < result[largest]))
+        largest = k;
+    result.erase(result.begin() + static_cast<std::ptrdiff_t>(largest));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Unassigned faces without a regular vertex join what lies across their longest edge that is not
+/// sharp, one after the other from `beside` on (method.md 6). `owner`: of the faces taken so far.
+template <class OwnerBefore>
+void join_faces_without_vote(const PartitionGround& ground, std::vector<FaceId> beside,
+                             std::unordered_map<FaceId, std::uint32_t>& owner,
+                             const OwnerBefore& owner_before) {
+  const Mesh& mesh = ground.mesh;
+  for (std::size_t next = 0; next < beside.size(); ++next) {
+    const FaceId f = beside[next];
+    if (owner.contains(f) || ground.partitions.label(f) != 0) continue;
+    const Triangle& t = mesh.triangle(f);
+    if (std::any_of(t.begin(), t.end(), [&](VertexId v) { return ground.is_regular(v); })) continue;
+    double longest = -1.0;
+    FaceId across = no_id;
+    for_sides(mesh, f, [&](HalfEdgeId h) {
+      if (ground.lines.is_sharp(h >> 1) || mesh.is_border_edge(h >> 1)) return;
+      if (const double length = mesh.edge_length(h >> 1); length > longest) {
+        longest = length;
+        across = mesh.face(Mesh::opposite(h));
+      }
+    });
+    if (across == no_id) continue;
+    const auto taken = owner.find(across);
+    const std::uint32_t label = taken != owner.end() ? taken->second : owner_before(across);
+    if (label == 0) continue;
+    owner[f] = label;
+    for_sides(mesh, f, [&](HalfEdgeId h) {
+      if (const FaceId g = mesh.face(Mesh::opposite(h)); g != no_id) beside.push_back(g);
+    });
+  }
+}
+
+/// Faces beside those of `faces`, once each, in order.
+std::vector<FaceId> neighbours_of(const Mesh& mesh, const std::vector<FaceId>& faces) {
+  std::vector<FaceId> result;
+  for (const FaceId f : faces)
+    for_sides(mesh, f, [&](HalfEdgeId h) {
+      if (const FaceId g = mesh.face(Mesh::opposite(h)); g != no_id) result.push_back(g);
+    });
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// Mean of the criterion over the regular vertices of a face; NaN where it has none.
+double value_of(const PartitionGround& ground, FaceId f) {
+  double sum = 0.0;
+  int count = 0;
+  for (const VertexId v : ground.mesh.triangle(f))
+    if (ground.is_regular(v)) {
+      sum += ground.values[v];
+      ++count;
+    }
+  return count > 0 ? sum / count : std::nan("");
+}
+
+void add_face(const PartitionGround& ground, FaceId f, Partition& partition) {
+  const double area = face_area(ground.mesh, f), value = value_of(ground, f);
+  if (!std::isnan(value) && partition.area + area > 0.0)
+    partition.mean_value += (value - partition.mean_value) * area / (partition.area + area);
+  partition.area += area;
+  ++partition.faces;
+}
+
+void take_face(const PartitionGround& ground, FaceId f, Partition& partition) {
+  const double area = face_area(ground.mesh, f), value = value_of(ground, f);
+  if (!std::isnan(value) && partition.area - area > 0.0)
+    partition.mean_value += (partition.mean_value - value) * area / (partition.area - area);
+  partition.area = std::max(partition.area - area, 0.0);
+  --partition.faces;
+}
+
+}  // namespace
+
+bool PartitionGround::is_regular(VertexId v) const {
+  if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return false;
+  return lines.edges.empty() || sharp_edges_at(mesh, lines, v).empty();
+}
+
+bool PartitionGround::passes(FaceId f, const CurvatureInterval& interval) const {
+  bool votes = false;
+  for (const VertexId v : mesh.triangle(f)) {
+    if (!is_regular(v)) continue;
+    if (values[v] < interval.min || values[v] > interval.max) return false;
+    votes = true;
+  }
+  return votes;
+}
+
+std::vector<FaceId> faces_of(const Mesh& mesh, const Partitions& partitions,
+                             const Partition& partition) {
+  std::vector<FaceId> faces =
+      flood(mesh, {*mesh.find_face(partition.anchor)},
+            [&](HalfEdgeId, FaceId f) { return partitions.label(f) == partition.id; });
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+Result<std::vector<FaceId>> extend_partition(const PartitionGround& ground,
+                                             const Partition& partition,
+                                             const Boundaries& boundaries,
+                                             const CurvatureInterval& interval) {
+  const Mesh& mesh = ground.mesh;
+  std::vector<FaceId> beyond;
+  bool has_undefined = false;
+  const auto unassigned = [&](FaceId f) { return f != no_id && ground.partitions.label(f) == 0; };
+  for (const BoundaryPtr& boundary : boundaries) {
+    if (boundary->type != BoundaryType::undefined ||
+        (boundary->left != partition.id && boundary->right != partition.id))
+      continue;
+    has_undefined = true;
+    for (const HalfEdgeId h : half_edges_of(mesh, boundary->vertices))
+      for (const FaceId f : {mesh.face(h), mesh.face(Mesh::opposite(h))})
+        if (unassigned(f)) beyond.push_back(f);
+  }
+  if (!has_undefined)
+    return fail("Partition " + std::to_string(partition.id) +
+                " has no undefined boundary: sharp lines, other partitions and the border are all "
+                "round it, so there is nothing to extend into.");
+  std::sort(beyond.begin(), beyond.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+  std::vector<FaceId> starts;
+  for (const FaceId f : beyond)
+    if (ground.passes(f, interval)) starts.push_back(f);
+  std::vector<FaceId> taken = flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
+    return unassigned(f) && !ground.lines.is_sharp(h >> 1) && ground.passes(f, interval);
+  });
+  std::unordered_map<FaceId, std::uint32_t> owner;
+  for (const FaceId f : taken) owner[f] = partition.id;
+  std::sort(taken.begin(), taken.end());
+  std::vector<FaceId> beside = neighbours_of(mesh, taken);
+  beside.insert(beside.end(), beyond.begin(), beyond.end());
+  join_faces_without_vote(ground, std::move(beside), owner, [&](FaceId f) {
+    return ground.partitions.label(f) == partition.id ? partition.id : 0u;
+  });
+  std::vector<FaceId> result;
+  for (const auto& [f, id] : owner) result.push_back(f);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::vector<FaceId>> find_areas(const PartitionGround& ground,
+                                            const std::vector<FaceId>& faces,
+                                            const CurvatureInterval& interval,
+                                            std::uint32_t min_faces) {
+  std::unordered_set<FaceId> passing;
+  for (const FaceId f : faces)
+    if (ground.partitions.label(f) == 0 && ground.passes(f, interval)) passing.insert(f);
+  std::vector<std::tuple<double, VertexId, std::vector<FaceId>>> areas;
+  std::unordered_set<FaceId> seen;
+  for (const FaceId start : faces) {
+    if (!passing.contains(start) || seen.contains(start)) continue;
+    std::vector<FaceId> area = flood(ground.mesh, {start}, [&](HalfEdgeId h, FaceId f) {
+      return passing.contains(f) && !ground.lines.is_sharp(h >> 1);
+    });
+    seen.insert(area.begin(), area.end());
+    if (area.size() < min_faces) continue;
+    std::sort(area.begin(), area.end());
+    double highest = -1.0;
+    VertexId seed = no_id;
+    for (const FaceId f : area)
+      for (const VertexId v : ground.mesh.triangle(f))
+        if (ground.is_regular(v) &&
+            (ground.values[v] > highest || (ground.values[v] == highest && v < seed))) {
+          highest = ground.values[v];
+          seed = v;
+        }
+    areas.emplace_back(-highest, seed, std::move(area));
+  }
+  std::sort(areas.begin(), areas.end());
+  std::unordered_map<FaceId, std::uint32_t> owner;  // place in `areas` from 1
+  std::vector<FaceId> taken;
+  for (std::uint32_t k = 0; k < areas.size(); ++k)
+    for (const FaceId f : std::get<2>(areas[k])) {
+      owner[f] = k + 1;
+      taken.push_back(f);
+    }
+  std::sort(taken.begin(), taken.end());
+  join_faces_without_vote(ground, neighbours_of(ground.mesh, taken), owner,
+                          [](FaceId) { return 0u; });
+  std::vector<std::vector<FaceId>> result(areas.size());
+  for (const auto& [f, k] : owner) result[k - 1].push_back(f);
+  for (std::vector<FaceId>& area : result) std::sort(area.begin(), area.end());
+  return result;
+}
+
+Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partition& partition,
+                                    const std::vector<VertexId>& path) {
+  const Mesh& mesh = ground.mesh;
+  std::unordered_set<EdgeId> cut;
+  std::vector<FaceId> left, right;
+  const auto own = [&](FaceId f) {
+    return f != no_id && ground.partitions.label(f) == partition.id;
+  };
+  for (const HalfEdgeId h : half_edges_of(mesh, path)) {
+    const FaceId a = mesh.face(h), b = mesh.face(Mesh::opposite(h));
+    cut.insert(h >> 1);
+    if (own(a) && own(b)) {
+      left.push_back(a);
+      right.push_back(b);
+    }
+  }
+  const std::string nothing = "The path does not part partition " + std::to_string(partition.id) +
+                              ": draw it from one of its boundaries to another.";
+  if (left.empty()) return fail(nothing);
+  // An inner sharp line counts as part of the cut only where the path alone does not do.
+  for (const bool lines_cut : {false, true}) {
+    const auto side = [&](const std::vector<FaceId>& starts) {
+      return flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
+        return own(f) && !cut.contains(h >> 1) && !(lines_cut && ground.lines.is_sharp(h >> 1));
+      });
+    };
+    std::vector<FaceId> one = side(left);
+    const std::unordered_set<FaceId> reached(one.begin(), one.end());
+    if (std::any_of(right.begin(), right.end(), [&](FaceId f) { return reached.contains(f); }))
+      continue;
+    std::vector<FaceId> other = side(right);
+    std::vector<FaceId>& smaller = other.size() < one.size() ? other : one;
+    std::sort(smaller.begin(), smaller.end());
+    smaller.erase(std::unique(smaller.begin(), smaller.end()), smaller.end());
+    return smaller;
+  }
+  return fail(nothing);
+}
+
+std::vector<FaceId> faces_within(const Mesh& mesh, const std::unordered_set<VertexId>& vertices) {
+  std::vector<FaceId> faces;
+  for (const VertexId v : vertices)
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      const FaceId f = mesh.face(h);
+      if (f == no_id) return;
+      for (const VertexId w : mesh.triangle(f))
+        if (!vertices.contains(w)) return;
+      faces.push_back(f);
+    });
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+std::vector<FaceId> joined_to(const PartitionGround& ground, const std::vector<FaceId>& faces,
+                              std::uint32_t partition) {
+  const std::unordered_set<FaceId> wanted(faces.begin(), faces.end());
+  std::vector<FaceId> starts;
+  for (const FaceId f : faces) {
+    bool beside = ground.partitions.label(f) == partition;
+    for_sides(ground.mesh, f, [&](HalfEdgeId h) {
+      const FaceId g = ground.mesh.face(Mesh::opposite(h));
+      beside = beside || (g != no_id && ground.partitions.label(g) == partition &&
+                          !ground.lines.is_sharp(h >> 1));
+    });
+    if (beside) starts.push_back(f);
+  }
+  std::vector<FaceId> joined = flood(ground.mesh, starts, [&](HalfEdgeId h, FaceId f) {
+    return wanted.contains(f) && !ground.lines.is_sharp(h >> 1);
+  });
+  std::sort(joined.begin(), joined.end());
+  return joined;
+}
+
+std::vector<FaceId> with_unassigned_round(const PartitionGround& ground,
+                                          const std::vector<FaceId>& faces) {
+  std::vector<FaceId> area = flood(ground.mesh, faces, [&](HalfEdgeId h, FaceId f) {
+    return ground.partitions.label(f) == 0 && !ground.lines.is_sharp(h >> 1);
+  });
+  std::sort(area.begin(), area.end());
+  return area;
+}
+
+FaceLabels smooth_boundaries(const PartitionGround& ground, const Boundaries& boundaries,
+                             const std::unordered_set<std::uint32_t>& ids, int rounds) {
+  const Mesh& mesh = ground.mesh;
+  std::unordered_map<FaceId, std::uint32_t> changed;
+  const auto label_of = [&](FaceId f) {
+    const auto it = changed.find(f);
+    return it != changed.end() ? it->second : ground.partitions.label(f);
+  };
+  const auto is_locked = [&](std::uint32_t id) {
+    const Partition* partition = ground.partitions.find(id);
+    return !partition || partition->locked;
+  };
+  std::vector<FaceId> work;
+  for (const BoundaryPtr& boundary : boundaries) {
+    if (boundary->type != BoundaryType::gn) continue;
+    if (!ids.empty() && !ids.contains(boundary->left) && !ids.contains(boundary->right)) continue;
+    for (const HalfEdgeId h : half_edges_of(mesh, boundary->vertices))
+      for (const FaceId f : {mesh.face(h), mesh.face(Mesh::opposite(h))}) work.push_back(f);
+  }
+  for (int round = 0; round < rounds && !work.empty(); ++round) {
+    std::sort(work.begin(), work.end());
+    work.erase(std::unique(work.begin(), work.end()), work.end());
+    std::vector<FaceId> next;
+    for (const FaceId f : work) {
+      const std::uint32_t own = label_of(f);
+      if (own == 0 || is_locked(own)) continue;
+      double kept = 0.0;
+      int own_sides = 0;
+      std::map<std::uint32_t, double> gained;
+      for_sides(mesh, f, [&](HalfEdgeId h) {
+        const FaceId g = mesh.face(Mesh::opposite(h));
+        if (g == no_id) return;
+        const std::uint32_t label = label_of(g);
+        if (label == own) {
+          ++own_sides;
+          kept += mesh.edge_length(h >> 1);
+        } else if (label != 0 && !ground.lines.is_sharp(h >> 1) && !is_locked(label)) {
+          gained[label] += mesh.edge_length(h >> 1);
+        }
+      });
+      if (own_sides != 1) continue;  // it would part its partition, or take its last face
+      std::uint32_t best = 0;
+      double longest = kept * (1.0 + 1e-9);
+      for (const auto& [label, length] : gained)
+        if (length > longest) {
+          longest = length;
+          best = label;
+        }
+      if (best == 0) continue;
+      changed[f] = best;
+      for_sides(mesh, f, [&](HalfEdgeId h) {
+        if (const FaceId g = mesh.face(Mesh::opposite(h)); g != no_id) next.push_back(g);
+      });
+    }
+    work = std::move(next);
+  }
+  FaceLabels result(changed.begin(), changed.end());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels& changes,
+                                 const std::vector<Partition>& fresh, std::uint32_t& next_id) {
+  const Mesh& mesh = ground.mesh;
+  EditedPartitions result{ground.partitions, {}};
+  ChunkedArray<std::uint32_t>& labels = result.partitions.labels;
+  if (labels.empty()) labels = ChunkedArray<std::uint32_t>(mesh.face_count(), 0u);
+  std::map<std::uint32_t, Partition> changed;  // by id
+  for (const Partition& partition : fresh) changed[partition.id] = partition;
+  const auto partition_of = [&](std::uint32_t id) -> Partition& {
+    const auto it = changed.find(id);
+    return it != changed.end() ? it->second
+                               : changed.emplace(id, *ground.partitions.find(id)).first->second;
+  };
+  std::map<std::uint32_t, std::vector<FaceId>> left;  // faces that each label lost
+  for (const auto& [f, label] : changes) {
+    const std::uint32_t old = labels[f];
+    if (old == label) continue;
+    labels.set(f, label);
+    if (old != 0) {
+      take_face(ground, f, partition_of(old));
+      left[old].push_back(f);
+    }
+    if (label != 0) add_face(ground, f, partition_of(label));
+    for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(h >> 1); });
+  }
+  // New partitions stand on the face that they got first.
+  for (const auto& [f, label] : changes)
+    if (label != 0)
+      if (Partition& partition = partition_of(label); partition.anchor == Triangle{})
+        partition.anchor = mesh.triangle(f);
+
+  for (const auto& [id, faces] : left) {
+    Partition& partition = partition_of(id);
+    if (partition.faces == 0) continue;
+    std::vector<FaceId> starts;
+    for (const FaceId f : faces)
+      for_sides(mesh, f, [&](HalfEdgeId h) {
+        if (const FaceId g = mesh.face(Mesh::opposite(h)); g != no_id && labels[g] == id)
+          starts.push_back(g);
+      });
+    std::sort(starts.begin(), starts.end());
+    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    for (const std::vector<FaceId>& piece : parted_pieces(mesh, labels, id, starts)) {
+      Partition part;
+      part.id = next_id++;
+      part.anchor = mesh.triangle(piece.front());
+      part.criterion = partition.criterion;
+      part.interval = partition.interval;
+      part.locked = partition.locked;
+      for (const FaceId f : piece) {
+        labels.set(f, part.id);
+        take_face(ground, f, partition);
+        add_face(ground, f, part);
+        for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(h >> 1); });
+      }
+      changed[part.id] = part;
+    }
+    const auto anchor = mesh.find_face(partition.anchor);
+    if (!anchor || labels[*anchor] != id)
+      for (const FaceId f : starts)
+        if (labels[f] == id) {
+          partition.anchor = mesh.triangle(f);
+          break;
+        }
+  }
+  std::sort(result.touched.begin(), result.touched.end());
+  result.touched.erase(std::unique(result.touched.begin(), result.touched.end()),
+                       result.touched.end());
+  std::vector<PartitionPtr>& partitions = result.partitions.partitions;
+  std::erase_if(partitions, [&](const PartitionPtr& p) { return changed.contains(p->id); });
+  for (const auto& [id, partition] : changed)
+    if (partition.faces > 0) partitions.push_back(std::make_shared<const Partition>(partition));
+  std::sort(partitions.begin(), partitions.end(),
+            [](const PartitionPtr& a, const PartitionPtr& b) { return a->id < b->id; });
+  return result;
+}
+
+}  // namespace arris

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curvature/curvature.h"
+#include "core/mesh/mesh.h"
+#include "core/partitions/boundaries.h"
+#include "core/partitions/partitions.h"
+#include "core/sharp_lines/lines.h"
+
+/// The interactive treatments of section 7.2. Each works out which faces get another label;
+/// edit_partitions() then gives it. The cost follows what is treated and not the mesh.
+namespace arris {
+
+/// What a treatment works on: one mesh, its criterion per vertex, its lines and partitions.
+struct PartitionGround {
+  const Mesh& mesh;
+  const std::vector<double>& values;
+  const SharpLines& lines;
+  const Partitions& partitions;
+
+  /// True for a vertex with a two-sided curvature: inside, on no sharp line.
+  bool is_regular(VertexId v) const;
+  /// True where each regular vertex of the face lies in the interval and there is one.
+  bool passes(FaceId f, const CurvatureInterval& interval) const;
+};
+
+using FaceLabels = std::vector<std::pair<FaceId, std::uint32_t>>;  ///< Face, its new label.
+
+/// All faces of a partition, ascending.
+std::vector<FaceId> faces_of(const Mesh& mesh, const Partitions& partitions,
+                             const Partition& partition);
+
+/// Unassigned faces that a partition reaches from its undefined boundaries under an interval of its
+/// own, not over sharp edges. Errors: it has no undefined boundary, so there is nothing to extend
+/// into (the paper's condition).
+Result<std::vector<FaceId>> extend_partition(const PartitionGround& ground,
+                                             const Partition& partition,
+                                             const Boundaries& boundaries,
+                                             const CurvatureInterval& interval);
+
+/// Areas that pass `interval` among the unassigned of `faces` (ascending), found as section 7.1
+/// does but not beyond them; those with fewer than `min_faces` are left out. Faces without a
+/// regular vertex join them. By decreasing highest value.
+std::vector<std::vector<FaceId>> find_areas(const PartitionGround& ground,
+                                            const std::vector<FaceId>& faces,
+                                            const CurvatureInterval& interval,
+                                            std::uint32_t min_faces);
+
+/// The part of a partition that a path of vertices cuts off: the smaller side. Errors: the path
+/// does not part it.
+Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partition& partition,
+                                    const std::vector<VertexId>& path);
+
+/// Faces whose three vertices are all among `vertices`, ascending.
+std::vector<FaceId> faces_within(const Mesh& mesh, const std::unordered_set<VertexId>& vertices);
+
+/// Those of `faces` that a partition reaches through faces of `faces`, not over sharp edges.
+std::vector<FaceId> joined_to(const PartitionGround& ground, const std::vector<FaceId>& faces,
+                              std::uint32_t partition);
+
+/// `faces` and the unassigned areas beside them, not over sharp edges; ascending.
+std::vector<FaceId> with_unassigned_round(const PartitionGround& ground,
+                                          const std::vector<FaceId>& faces);
+
+/// Teeth of the Gn boundaries between the partitions `ids` (all where empty) and their neighbours:
+/// a face goes over to the partition with which it shares the greater length, where that leaves
+/// both connected and makes the boundary shorter. Never over sharp edges; locked partitions stay as
+/// they are. Round after round, at most `rounds`.
+FaceLabels smooth_boundaries(const PartitionGround& ground, const Boundaries& boundaries,
+                             const std::unordered_set<std::uint32_t>& ids, int rounds);
+
+/// What edit_partitions() makes of changed labels.
+struct EditedPartitions {
+  Partitions partitions;
+  std::vector<EdgeId> touched;  ///< Edges of changed faces, ascending.
+};
+
+/// Gives faces their new labels. `fresh`: partitions for labels that are new, with id, criterion
+/// and interval set. Partitions keep their number of faces, area, mean and an anchor; one that is
+/// parted goes on as its largest piece, and the others get ids from `next_id` on; one that is left
+/// without a face goes.
+EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels& changes,
+                                 const std::vector<Partition>& fresh, std::uint32_t& next_id);
+
+}  // namespace arris

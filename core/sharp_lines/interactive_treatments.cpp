@@ -1,0 +1,265 @@
+#include "core/sharp_lines/interactive_treatments.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <unordered_map>
+
+#include "core/sharp_lines/candidate_walk.h"
+#include "core/sharp_lines/cheapest_path.h"
+
+namespace arris {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double veto_reach = 1.5;  // mean edges, document.md rule 6
+
+/// Sharp edges of a document while a treatment adds to them.
+class LocalEdges {
+ public:
+  LocalEdges(const Mesh& mesh, const SharpLines& lines) : mesh_(mesh), lines_(lines) {}
+
+  bool is_sharp(EdgeId e) const {
+    const auto changed = changes_.find(e);
+    return changed != changes_.end() ? changed->second : lines_.is_sharp(e);
+  }
+  unsigned degree(VertexId v) const {
+    unsigned count = 0;
+    mesh_.for_ring(v, [&](HalfEdgeId h) { count += is_sharp(h >> 1); });
+    return count;
+  }
+  bool may_take(EdgeId e) const {
+    return !region_ || (region_->contains(mesh_.edge(e)[0]) && region_->contains(mesh_.edge(e)[1]));
+  }
+  void take(EdgeId e) { changes_[e] = true; }
+  void drop(EdgeId e) { changes_[e] = false; }
+  void keep_to(const std::unordered_set<VertexId>& region) { region_ = &region; }
+
+  LineChanges result(Origin origin) const {
+    LineChanges result;
+    for (const auto& [e, sharp] : changes_)
+      if (sharp != lines_.is_sharp(e)) result.edges.emplace_back(e, sharp ? origin : Origin::none);
+    std::sort(result.edges.begin(), result.edges.end());
+    return result;
+  }
+
+ private:
+  const Mesh& mesh_;
+  const SharpLines& lines_;
+  const std::unordered_set<VertexId>* region_ = nullptr;
+  std::unordered_map<EdgeId, bool> changes_;
+};
+
+/// Vertices joined to `from` by edges whose vertices all satisfy `is_in`; sharp edges are not
+/// crossed where `stop_at` is given.
+template <class IsIn>
+std::unordered_set<VertexId> spread(const Mesh& mesh, const std::vector<VertexId>& from,
+                                    const SharpLines* stop_at, const IsIn& is_in) {
+  std::unordered_set<VertexId> reached;
+  std::vector<VertexId> front;
+  for (const VertexId v : from)
+    if (v < mesh.vertex_count() && !mesh.is_isolated(v) && reached.insert(v).second)
+      front.push_back(v);
+  const std::unordered_set<VertexId> start = reached;
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const VertexId v = front[next];
+    // A vertex of a line is reached, but not passed; the stroke itself may begin on one.
+    if (stop_at && !start.contains(v) && !sharp_edges_at(mesh, *stop_at, v).empty()) continue;
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      const VertexId w = mesh.to(h);
+      if (!reached.contains(w) && is_in(v, w)) {
+        reached.insert(w);
+        front.push_back(w);
+      }
+    });
+  }
+  return reached;
+}
+
+/// Vertices within `radius` of one of `sources`, spread over the surface from the nearest of them.
+std::unordered_set<VertexId> within(const Mesh& mesh, const std::vector<VertexId>& sources,
+                                    double radius, const SharpLines* stop_at) {
+  std::unordered_map<VertexId, VertexId> nearest;  // reached to the source it is measured from
+  for (const VertexId v : sources) nearest[v] = v;
+  const double radius2 = radius * radius;
+  return spread(mesh, sources, stop_at, [&](VertexId v, VertexId w) {
+    VertexId best = nearest[v];
+    double least = (mesh.point(w) - mesh.point(best)).squaredNorm();
+    if (least > radius2)  // round a bend another source may be nearer
+      for (const VertexId s : sources)
+        if (const double d = (mesh.point(w) - mesh.point(s)).squaredNorm(); d < least) {
+          least = d;
+          best = s;
+        }
+    if (least > radius2) return false;
+    nearest[w] = best;
+    return true;
+  });
+}
+
+}  // namespace
+
+LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
+                        const Line& line, LineEnds ends, double angle, int candidates) {
+  LocalEdges edges(mesh, lines);
+  CandidateWalk<LocalEdges> walk(mesh, curvatures, angle * degree, candidates, edges);
+  if (!line.closed) {
+    for (const auto& [end, wanted] : {std::pair{line.vertices.front(), ends != LineEnds::last},
+                                      std::pair{line.vertices.back(), ends != LineEnds::first}})
+      // A loose end only: where lines meet, or at the border, a line has come to its end.
+      if (wanted && !mesh.is_border(end) && edges.degree(end) == 1) walk.walk(end);
+  }
+  return edges.result(Origin::extended);
+}
+
+Result<std::vector<VertexId>> bridge_between(const Mesh& mesh, const Curvatures& curvatures,
+                                             const SharpLines& lines, const Line& a, const Line& b,
+                                             double angle) {
+  if (a.closed || b.closed) return fail("A closed line has no end to merge at.");
+  const auto ends = [](const Line& line) {
+    return std::vector<VertexId>{line.vertices.front(), line.vertices.back()};
+  };
+  double straight = std::numeric_limits<double>::infinity();
+  for (const VertexId v : ends(a))
+    for (const VertexId w : ends(b))
+      straight = std::min(straight, (mesh.point(v) - mesh.point(w)).norm());
+  constexpr double detour = 4.0;
+  std::vector<VertexId> path = cheapest_path(mesh, curvatures, ends(a), ends(b), {angle * degree},
+                                             detour * straight + mesh.mean_edge_length(),
+                                             [&](EdgeId e) { return !lines.is_sharp(e); });
+  if (path.size() < 2)
+    return fail("Lines " + std::to_string(a.id) + " and " + std::to_string(b.id) +
+                " cannot be merged: no path joins their ends within four times the straight way.");
+  return path;
+}
+
+Result<std::vector<VertexId>> path_through(const Mesh& mesh, const Curvatures& curvatures,
+                                           const std::vector<VertexId>& points, double angle,
+                                           const std::function<bool(EdgeId)>& may_use) {
+  if (points.size() < 2) return fail("A line needs two points at least.");
+  for (const VertexId v : points)
+    if (v >= mesh.vertex_count() || mesh.is_isolated(v))
+      return fail("Vertex " + std::to_string(v) + " is not in the working mesh.");
+  std::vector<VertexId> path{points.front()};
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    if (points[k] == points[k + 1]) continue;
+    const std::vector<VertexId> stretch =
+        cheapest_path(mesh, curvatures, {points[k]}, {points[k + 1]}, {angle * degree},
+                      std::numeric_limits<double>::infinity(), may_use);
+    if (stretch.empty())
+      return fail("No path on the mesh joins vertices " + std::to_string(points[k]) + " and " +
+                  std::to_string(points[k + 1]) + ".");
+    path.insert(path.end(), stretch.begin() + 1, stretch.end());
+  }
+  if (path.size() < 2) return fail("A line needs two different points.");
+  return path;
+}
+
+LineChanges add_path(const Mesh& mesh, const SharpLines& lines, const std::vector<VertexId>& path,
+                     Origin origin) {
+  LineChanges changes;
+  for (const HalfEdgeId h : half_edges_of(mesh, path))
+    if (!lines.is_sharp(h >> 1) && !mesh.is_border_edge(h >> 1))
+      changes.edges.emplace_back(h >> 1, origin);
+  return changes;
+}
+
+LineChanges remove_path(const Mesh& mesh, const SharpLines& lines,
+                        const std::vector<VertexId>& path) {
+  LineChanges changes;
+  for (const HalfEdgeId h : half_edges_of(mesh, path))
+    if (lines.is_sharp(h >> 1)) changes.edges.emplace_back(h >> 1, Origin::none);
+  return changes;
+}
+
+std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
+                               const std::vector<VertexId>& path) {
+  std::unordered_set<EdgeId> own;
+  for (const HalfEdgeId h : half_edges_of(mesh, path)) own.insert(h >> 1);
+  const std::unordered_set<VertexId> zone =
+      within(mesh, path, veto_reach * mesh.mean_edge_length(), nullptr);
+  std::vector<EdgeId> found;
+  for (const VertexId v : zone)
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      const EdgeId e = h >> 1;
+      if (mesh.to(h) > v && zone.contains(mesh.to(h)) && !own.contains(e) && lines.is_sharp(e) &&
+          lines.edges[e] == Origin::found)
+        found.push_back(e);
+    });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region,
+                                         const SharpLines* stop_at) {
+  return within(mesh, region.stroke, region.radius, stop_at);
+}
+
+LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
+                             const SharpLines& lines, const std::unordered_set<VertexId>& region,
+                             const SharpLineOptions& options) {
+  LocalEdges edges(mesh, lines);
+  edges.keep_to(region);
+  std::vector<EdgeId> inside;
+  std::vector<VertexId> seeds;
+  for (const VertexId v : region) {
+    if (!mesh.is_border(v)) seeds.push_back(v);
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      if (mesh.to(h) > v && region.contains(mesh.to(h))) inside.push_back(h >> 1);
+    });
+  }
+  std::sort(inside.begin(), inside.end());
+  std::sort(seeds.begin(), seeds.end(), [&](VertexId a, VertexId b) {
+    return curvatures.ikabs[a] != curvatures.ikabs[b] ? curvatures.ikabs[a] > curvatures.ikabs[b]
+                                                      : a < b;
+  });
+  std::unordered_set<EdgeId> locked;
+  std::vector<EdgeId> sharp;
+  for (const EdgeId e : inside)
+    if (lines.is_sharp(e)) sharp.push_back(e);
+  for (const std::uint32_t id : lines_through(mesh, lines, sharp))
+    if (const Line& line = *lines.find(id); line.locked)
+      for (const HalfEdgeId h : half_edges_of(mesh, line.vertices)) locked.insert(h >> 1);
+  for (const EdgeId e : sharp)
+    if (lines.edges[e] == Origin::found && !locked.contains(e)) edges.drop(e);
+
+  CandidateWalk<LocalEdges> walk(mesh, curvatures, options.angle * degree, options.candidates,
+                                 edges);
+  walk.run(seeds);
+  walk.close(inside);
+
+  // Isolated new lines that are too short: groups of new edges that touch nothing else.
+  LineChanges changes = edges.result(Origin::found);
+  std::unordered_set<EdgeId> fresh;
+  for (const auto& [e, origin] : changes.edges)
+    if (origin != Origin::none) fresh.insert(e);
+  std::unordered_set<EdgeId> seen, too_short;
+  for (const EdgeId start : inside) {
+    if (!edges.is_sharp(start) || seen.contains(start)) continue;
+    std::vector<EdgeId> group{start};
+    seen.insert(start);
+    bool isolated = true;
+    double length = 0.0;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      length += mesh.edge_length(group[k]);
+      isolated = isolated && !locked.contains(group[k]) &&
+                 (fresh.contains(group[k]) || lines.edges[group[k]] == Origin::found);
+      for (const VertexId v : mesh.edge(group[k]))
+        mesh.for_ring(v, [&](HalfEdgeId h) {
+          if (!edges.is_sharp(h >> 1) || seen.contains(h >> 1)) return;
+          if (!edges.may_take(h >> 1)) {
+            isolated = false;
+            return;
+          }
+          seen.insert(h >> 1);
+          group.push_back(h >> 1);
+        });
+    }
+    if (isolated && length < options.min_length) too_short.insert(group.begin(), group.end());
+  }
+  for (const EdgeId e : too_short) edges.drop(e);
+  return edges.result(Origin::found);
+}
+
+}  // namespace arris
