@@ -1,0 +1,332 @@
+#include "core/guidance/leaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/guidance/line_ends.h"
+#include "core/guidance/path_search.h"
+
+namespace arris {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Ways tried from one loose end, each to another line.
+constexpr std::size_t most_ways = 3;
+/// Gaps weighed against each other in one partition, the shortest first: bounds the quadratic part.
+constexpr std::size_t most_gaps = 1000;
+
+struct Gap {
+  std::uint32_t partition;
+  double length;
+  std::vector<VertexId> vertices;
+  std::vector<EdgeId> edges;
+};
+
+/// A region of a partition between lines and gaps.
+struct Region {
+  double area = 0.0;
+  double value = 0.0;       // sum of area * criterion
+  double value_area = 0.0;  // area of the faces that have one
+};
+
+/// Two regions that meet along edges of these gaps (sorted, at least one).
+struct Link {
+  std::uint32_t a, b;
+  std::vector<std::uint32_t> gaps;
+};
+
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t find(std::uint32_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Gaps from one loose end through each of the large partitions it lies in.
+std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
+                           const LineEnds& ends, const LooseEnd& end, double least_area,
+                           double reach) {
+  std::set<std::uint32_t> labels;
+  mesh.for_ring(end.vertex, [&](HalfEdgeId h) {
+    const Partition* partition =
+        mesh.face(h) == no_id ? nullptr : partitions.find(partitions.label(mesh.face(h)));
+    if (partition && partition->area >= least_area) labels.insert(partition->id);
+  });
+  std::vector<Gap> gaps;
+  if (labels.empty()) return gaps;
+  const auto along = ends.along_lines(end, LineEnds::detour * reach);
+  PathSearch search(mesh);
+  for (const std::uint32_t label : labels) {
+    const auto in_partition = [&](HalfEdgeId h) {
+      const FaceId f = mesh.face(h);
+      return f != no_id && partitions.label(f) == label;
+    };
+    std::set<std::uint32_t> arrived;  // lines, 0 for the border
+    search.run(
+        end.vertex, reach,
+        [&](HalfEdgeId h) {
+          return !lines.is_sharp(h >> 1) && !mesh.is_border_edge(h >> 1) &&
+                         (in_partition(h) || in_partition(Mesh::opposite(h)))
+                     ? mesh.edge_length(h >> 1)
+                     : infinite;
+        },
+        [&](VertexId v) {
+          const std::uint32_t line = ends.line_at(v);
+          if (line == 0 && !mesh.is_border(v)) return Visit::go_on;
+          const double length = search.length_to(v);
+          const auto round = along.find(v);
+          if (round != along.end() && round->second < LineEnds::detour * length)
+            return Visit::do_not_pass;
+          if (!arrived.insert(line).second) return Visit::do_not_pass;
+          Gap gap{label, length, {end.vertex}, {}};
+          for (const HalfEdgeId h : search.path_to(v)) {
+            gap.vertices.push_back(mesh.to(h));
+            gap.edges.push_back(h >> 1);
+          }
+          gaps.push_back(std::move(gap));
+          return arrived.size() < most_ways ? Visit::do_not_pass : Visit::finish;
+        });
+  }
+  return gaps;
+}
+
+/// The gaps of one partition and the regions they part it into.
+class PartedPartition {
+ public:
+  explicit PartedPartition(std::vector<Gap> gaps) : gaps_(std::move(gaps)) {
+    std::sort(gaps_.begin(), gaps_.end(), [](const Gap& x, const Gap& y) {
+      return x.length != y.length ? x.length < y.length : x.vertices < y.vertices;
+    });
+    // Two loose ends that find each other find one gap.
+    std::set<std::pair<VertexId, VertexId>> known;
+    std::erase_if(gaps_, [&](const Gap& gap) {
+      return !known.insert(std::minmax(gap.vertices.front(), gap.vertices.back())).second;
+    });
+    if (gaps_.size() > most_gaps) gaps_.resize(most_gaps);
+    for (std::uint32_t g = 0; g < gaps_.size(); ++g)
+      for (const EdgeId e : gaps_[g].edges) gaps_at_[e].push_back(g);
+  }
+
+  bool is_gap(EdgeId e) const { return gaps_at_.contains(e); }
+  std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
+  void add_region(const Region& region) { regions_.push_back(region); }
+  /// `region_of(f)`: the region of a face; no_id outside the partition.
+  template <class RegionOf>
+  void link(const Mesh& mesh, const RegionOf& region_of) {
+    links_of_.resize(gaps_.size());
+    for (std::uint32_t g = 0; g < gaps_.size(); ++g)
+      for (const EdgeId e : gaps_[g].edges) {
+        const std::vector<std::uint32_t>& here = gaps_at_.at(e);
+        if (here.front() != g) continue;
+        const auto [left, right] = mesh.edge_faces(e);
+        const std::uint32_t a = region_of(left), b = region_of(right);
+        if (a == no_id || b == no_id || a == b) continue;
+        for (const std::uint32_t other : here)
+          links_of_[other].push_back(static_cast<std::uint32_t>(links_.size()));
+        links_.push_back({a, b, here});
+      }
+  }
+
+  std::vector<Leak> leaks() const {
+    std::vector<Leak> best(gaps_.size());
+    for (std::uint32_t g = 0; g < gaps_.size(); ++g) {
+      if (links_of_[g].empty()) continue;
+      weigh(
+          g, [&](std::uint32_t other) { return other == g; }, best);
+      if (best[g].score > 0.0) continue;
+      weigh(
+          g, [&](std::uint32_t other) { return other <= g; }, best);
+    }
+    std::erase_if(best, [](const Leak& leak) { return leak.score <= 0.0; });
+    return best;
+  }
+
+ private:
+  /// Closes the gaps `closed(g)`; where that parts what lies on the two sides of gap g, the gaps
+  /// between the two are leaks.
+  template <class Closed>
+  void weigh(std::uint32_t g, const Closed& closed, std::vector<Leak>& best) const {
+    Groups groups(regions_.size());
+    for (const Link& link : links_)
+      if (std::ranges::none_of(link.gaps, closed)) groups.join(link.a, link.b);
+    std::set<std::uint32_t> sides;
+    bool parts = false;
+    for (const std::uint32_t l : links_of_[g]) {
+      const std::uint32_t a = groups.find(links_[l].a), b = groups.find(links_[l].b);
+      parts |= a != b;
+      sides.insert({a, b});
+    }
+    if (!parts) return;
+    std::unordered_map<std::uint32_t, Region> sums;
+    for (std::uint32_t r = 0; r < regions_.size(); ++r) {
+      const std::uint32_t side = groups.find(r);
+      if (!sides.contains(side)) continue;
+      Region& sum = sums[side];
+      sum.area += regions_[r].area;
+      sum.value += regions_[r].value;
+      sum.value_area += regions_[r].value_area;
+    }
+    // A path that crosses others can part more than two; the largest stands against the rest.
+    std::uint32_t largest = *sides.begin();
+    for (const std::uint32_t side : sides)
+      if (sums[side].area > sums[largest].area) largest = side;
+    Region rest;
+    for (const std::uint32_t side : sides) {
+      if (side == largest) continue;
+      rest.area += sums[side].area;
+      rest.value += sums[side].value;
+      rest.value_area += sums[side].value_area;
+    }
+    std::set<std::uint32_t> between;
+    for (const Link& link : links_) {
+      const std::uint32_t a = groups.find(link.a), b = groups.find(link.b);
+      if (a == b || !sides.contains(a) || !sides.contains(b)) continue;
+      for (const std::uint32_t other : link.gaps)
+        if (closed(other)) between.insert(other);
+    }
+    double length = 0.0;
+    for (const std::uint32_t other : between) length += gaps_[other].length;
+    const Region& large = sums[largest];
+    double contrast = 0.0;
+    if (large.value_area > 0.0 && rest.value_area > 0.0) {
+      const double x = large.value / large.value_area, y = rest.value / rest.value_area;
+      if (x + y > 0.0) contrast = std::abs(x - y) / (x + y);
+    }
+    const double score = rest.area / (length * length) * (1.0 + contrast);
+    for (const std::uint32_t other : between) {
+      Leak& leak = best[other];
+      if (leak.score >= score) continue;
+      leak = {gaps_[other].partition,
+              gaps_[other].vertices,
+              gaps_[other].length,
+              static_cast<std::uint32_t>(between.size()),
+              rest.area,
+              contrast,
+              score};
+    }
+  }
+
+  std::vector<Gap> gaps_;  // by increasing length
+  std::unordered_map<EdgeId, std::vector<std::uint32_t>> gaps_at_;
+  std::vector<Region> regions_;
+  std::vector<Link> links_;
+  std::vector<std::vector<std::uint32_t>> links_of_;  // per gap
+};
+
+}  // namespace
+
+Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatures,
+                                     const SharpLines& lines, const Partitions& partitions,
+                                     const LeakOptions& options, const Context& context) {
+  context.report(0.0, "leaks");
+  std::vector<Leak> leaks;
+  if (partitions.partitions.empty() || lines.lines.empty()) return leaks;
+  double mean_area = 0.0;
+  for (const PartitionPtr& partition : partitions.partitions) mean_area += partition->area;
+  mean_area /= static_cast<double>(partitions.partitions.size());
+  const double least_area = mean_area * (1.0 - 1e-9);  // so that equal ones all count
+
+  const LineEnds ends(mesh, lines);
+  const double reach = options.reach * mesh.mean_edge_length();
+  std::vector<std::vector<Gap>> found(ends.loose().size());
+  parallel_for(
+      found.size(),
+      [&](std::size_t k) {
+        if (!context.cancelled())
+          found[k] = gaps_from(mesh, lines, partitions, ends, ends.loose()[k], least_area, reach);
+      },
+      16);
+  if (context.cancelled()) return cancelled();
+  context.report(0.5, "leaks");
+
+  std::vector<std::vector<Gap>> gaps_in(partitions.partitions.size());
+  std::unordered_map<std::uint32_t, std::uint32_t> place_of;  // of a partition in the list
+  for (std::uint32_t k = 0; k < gaps_in.size(); ++k) place_of[partitions.partitions[k]->id] = k;
+  for (std::vector<Gap>& gaps : found)
+    for (Gap& gap : gaps) gaps_in[place_of[gap.partition]].push_back(std::move(gap));
+
+  // Partitions share no face, so one array of regions serves them all.
+  std::vector<std::uint32_t> region_of(mesh.face_count(), no_id);
+  std::vector<FaceId> front;
+  std::unordered_map<std::uint32_t, PartedPartition> parted;  // by id
+  for (std::uint32_t k = 0; k < gaps_in.size(); ++k)
+    if (!gaps_in[k].empty())
+      parted.emplace(partitions.partitions[k]->id, PartedPartition(std::move(gaps_in[k])));
+  for (FaceId start = 0; start < mesh.face_count() && !parted.empty(); ++start) {
+    if (start % 65536 == 0 && context.cancelled()) return cancelled();
+    const std::uint32_t label = partitions.label(start);
+    if (label == 0 || region_of[start] != no_id) continue;
+    const auto entry = parted.find(label);
+    if (entry == parted.end()) continue;
+    PartedPartition& parts = entry->second;
+    const std::vector<double>& values = values_of(curvatures, partitions.find(label)->criterion);
+    Region region;
+    const std::uint32_t number = parts.region_count();
+    front.assign(1, start);
+    region_of[start] = number;
+    for (std::size_t next = 0; next < front.size(); ++next) {
+      const FaceId f = front[next];
+      const double area = face_area(mesh, f);
+      region.area += area;
+      double sum = 0.0;
+      int count = 0;
+      HalfEdgeId h = mesh.face_half_edge(f);
+      for (int corner = 0; corner < 3; ++corner, h = mesh.next(h)) {
+        const VertexId v = mesh.from(h);
+        if (!std::isnan(values[v]) && !mesh.is_border(v) && ends.line_at(v) == 0) {
+          sum += values[v];
+          ++count;
+        }
+        const FaceId other = mesh.face(Mesh::opposite(h));
+        if (other == no_id || region_of[other] != no_id || partitions.label(other) != label ||
+            lines.is_sharp(h >> 1) || parts.is_gap(h >> 1))
+          continue;
+        region_of[other] = number;
+        front.push_back(other);
+      }
+      if (count == 0) continue;
+      region.value += area * sum / count;
+      region.value_area += area;
+    }
+    parts.add_region(region);
+  }
+  context.report(0.8, "leaks");
+  for (const PartitionPtr& partition : partitions.partitions) {
+    const auto entry = parted.find(partition->id);
+    if (entry == parted.end()) continue;
+    if (context.cancelled()) return cancelled();
+    entry->second.link(mesh, [&](FaceId f) {
+      return f == no_id || partitions.label(f) != partition->id ? no_id : region_of[f];
+    });
+    for (Leak& leak : entry->second.leaks())
+      if (leak.score >= options.least_score) leaks.push_back(std::move(leak));
+  }
+  std::sort(leaks.begin(), leaks.end(), [](const Leak& a, const Leak& b) {
+    if (a.score != b.score) return a.score > b.score;
+    return a.path != b.path ? a.path < b.path : a.partition < b.partition;
+  });
+  if (leaks.size() > options.most) leaks.resize(options.most);
+  context.report(1.0, "leaks");
+  return leaks;
+}
+
+}  // namespace arris
