@@ -337,7 +337,7 @@ class FaceRules {
 
 std::string interval_text(const FaceRules& rules, const CurvatureInterval& interval) {
   return std::isfinite(interval.max) ? short_text(interval.min) + " to " + rules.text(interval.max)
-                                     : rules.text(interval.min) + " and above";
+                                     : rules.text(interval.min) + " and more";
 }
 
 /// The bound that a value breaks, or else the nearer one.
@@ -520,8 +520,8 @@ Explanation explain_face(const Document& document, FaceId f) {
   const std::string dated = step->out_of_date ? ", from before an earlier step changed." : ".";
   if (result.holds) {
     if (passed && partition && passed == &partition->interval && front >= rules.min_faces())
-      result.headline =
-          in + "; " + rules.name() + " lies inside " + interval_text(rules, *passed) + dated;
+      result.headline = in + "; " + rules.name() + " lies in the interval " +
+                        interval_text(rules, *passed) + dated;
     else if (const FaceId across = rules.across_longest(f);
              votes == 0 && across != no_id && document.partitions.label(across) == label)
       result.headline = in + ", joined without a vote across its longest side" + dated;
@@ -540,8 +540,8 @@ Explanation explain_face(const Document& document, FaceId f) {
         "all its vertices lie on lines or the border, and no partition lies across its longest "
         "side";
   else if (passed && front < rules.min_faces())
-    reason = "the " + count_text(front, "face", "faces") + " that pass here are fewer than the " +
-             std::to_string(rules.min_faces()) + " of a partition";
+    reason = "the front here covers " + count_text(front, "face", "faces") + ", fewer than the " +
+             std::to_string(rules.min_faces()) + " that make a partition";
   else if (passed)
     reason = "it passes, so a correction took it away afterwards";
   else if (rules.each_vote_held(f))

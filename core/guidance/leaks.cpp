@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <unordered_map>
@@ -11,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
+#include "core/sharp_lines/sharp_lines.h"
 
 namespace arris {
 
@@ -21,10 +24,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_ways = 3;
 /// Gaps weighed against each other in one partition, the shortest first: bounds the quadratic part.
 constexpr std::size_t most_gaps = 1000;
+/// In mean edge lengths: below this the length of a gap says more of the triangles than of the gap,
+/// and the corner that a line leaves beside a single edge would score high.
+constexpr double least_gap = 3.0;
 
 struct Gap {
   std::uint32_t partition;
   double length;
+  double sharpness;  // 0 to 1
   std::vector<VertexId> vertices;
   std::vector<EdgeId> edges;
 };
@@ -62,9 +69,9 @@ class Groups {
 };
 
 /// Gaps from one loose end through each of the large partitions it lies in.
-std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
-                           const LineEnds& ends, const LooseEnd& end, double least_area,
-                           double reach) {
+std::vector<Gap> gaps_from(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
+                           const Partitions& partitions, const LineEnds& ends, const LooseEnd& end,
+                           double least_area, double clear_angle, double reach) {
   std::set<std::uint32_t> labels;
   mesh.for_ring(end.vertex, [&](HalfEdgeId h) {
     const Partition* partition =
@@ -97,11 +104,14 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Part
           if (round != along.end() && round->second < LineEnds::detour * length)
             return Visit::do_not_pass;
           if (!arrived.insert(line).second) return Visit::do_not_pass;
-          Gap gap{label, length, {end.vertex}, {}};
+          Gap gap{label, length, 0.0, {end.vertex}, {}};
+          double turn = 0.0;
           for (const HalfEdgeId h : search.path_to(v)) {
             gap.vertices.push_back(mesh.to(h));
             gap.edges.push_back(h >> 1);
+            turn += std::abs(curvatures.beta[h >> 1]) * mesh.edge_length(h >> 1);
           }
+          gap.sharpness = std::min(1.0, turn / (length * std::max(clear_angle, 1e-6)));
           gaps.push_back(std::move(gap));
           return arrived.size() < most_ways ? Visit::do_not_pass : Visit::finish;
         });
@@ -112,7 +122,7 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Part
 /// The gaps of one partition and the regions they part it into.
 class PartedPartition {
  public:
-  explicit PartedPartition(std::vector<Gap> gaps) : gaps_(std::move(gaps)) {
+  PartedPartition(std::vector<Gap> gaps, double floor) : gaps_(std::move(gaps)), least_gap_(floor) {
     std::sort(gaps_.begin(), gaps_.end(), [](const Gap& x, const Gap& y) {
       return x.length != y.length ? x.length < y.length : x.vertices < y.vertices;
     });
@@ -203,15 +213,21 @@ class PartedPartition {
       for (const std::uint32_t other : link.gaps)
         if (closed(other)) between.insert(other);
     }
-    double length = 0.0;
-    for (const std::uint32_t other : between) length += gaps_[other].length;
+    double length = 0.0, sharpness = 0.0;
+    for (const std::uint32_t other : between) {
+      length += gaps_[other].length;
+      sharpness += gaps_[other].length * gaps_[other].sharpness;
+    }
+    sharpness /= length;
     const Region& large = sums[largest];
     double contrast = 0.0;
     if (large.value_area > 0.0 && rest.value_area > 0.0) {
       const double x = large.value / large.value_area, y = rest.value / rest.value_area;
       if (x + y > 0.0) contrast = std::abs(x - y) / (x + y);
     }
-    const double score = rest.area / (length * length) * (1.0 + contrast);
+    const double floored = std::max(length, least_gap_);
+    const double score =
+        rest.area / (floored * floored) * (1.0 + contrast) * (0.2 + 0.8 * sharpness);
     for (const std::uint32_t other : between) {
       Leak& leak = best[other];
       if (leak.score >= score) continue;
@@ -226,6 +242,7 @@ class PartedPartition {
   }
 
   std::vector<Gap> gaps_;  // by increasing length
+  const double least_gap_;
   std::unordered_map<EdgeId, std::vector<std::uint32_t>> gaps_at_;
   std::vector<Region> regions_;
   std::vector<Link> links_;
@@ -246,13 +263,16 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
   const double least_area = mean_area * (1.0 - 1e-9);  // so that equal ones all count
 
   const LineEnds ends(mesh, lines);
+  // Twice what noise alone gives an edge: a line that was missed turns more.
+  const double clear_angle = 2.0 * angle_noise(curvatures) * std::numbers::pi / 180.0;
   const double reach = options.reach * mesh.mean_edge_length();
   std::vector<std::vector<Gap>> found(ends.loose().size());
   parallel_for(
       found.size(),
       [&](std::size_t k) {
         if (!context.cancelled())
-          found[k] = gaps_from(mesh, lines, partitions, ends, ends.loose()[k], least_area, reach);
+          found[k] = gaps_from(mesh, curvatures, lines, partitions, ends, ends.loose()[k],
+                               least_area, clear_angle, reach);
       },
       16);
   if (context.cancelled()) return cancelled();
@@ -270,7 +290,8 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
   std::unordered_map<std::uint32_t, PartedPartition> parted;  // by id
   for (std::uint32_t k = 0; k < gaps_in.size(); ++k)
     if (!gaps_in[k].empty())
-      parted.emplace(partitions.partitions[k]->id, PartedPartition(std::move(gaps_in[k])));
+      parted.try_emplace(partitions.partitions[k]->id, std::move(gaps_in[k]),
+                         least_gap * mesh.mean_edge_length());
   for (FaceId start = 0; start < mesh.face_count() && !parted.empty(); ++start) {
     if (start % 65536 == 0 && context.cancelled()) return cancelled();
     const std::uint32_t label = partitions.label(start);
@@ -323,6 +344,12 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
   std::sort(leaks.begin(), leaks.end(), [](const Leak& a, const Leak& b) {
     if (a.score != b.score) return a.score > b.score;
     return a.path != b.path ? a.path < b.path : a.partition < b.partition;
+  });
+  // One way from each loose end, the best, and what has to be closed together with it.
+  std::map<std::pair<std::uint32_t, VertexId>, double> best_from;
+  std::erase_if(leaks, [&](const Leak& leak) {
+    return best_from.try_emplace({leak.partition, leak.path.front()}, leak.score).first->second >
+           leak.score;
   });
   if (leaks.size() > options.most) leaks.resize(options.most);
   context.report(1.0, "leaks");

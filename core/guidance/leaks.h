@@ -29,11 +29,14 @@ struct Leak {
   double area = 0.0;  ///< Of the smaller side that is parted, mm^2.
   /// How different the two sides are in mean criterion value: 0 (alike) to 1.
   double contrast = 0.0;
-  /// area / (length of the gaps closed together)^2, up to twice that by contrast.
+  /// area / (length of the gaps closed together, at least 3 mean edges)^2, times 1 + contrast,
+  /// times 0.2 (the path is as flat as noise makes edges) to 1 (it turns like a line that was
+  /// missed).
   double score = 0.0;
 };
 
-/// Where fronts ran through gaps, the highest score first (ties: the lower vertices).
+/// Where fronts ran through gaps, the highest score first (ties: the lower vertices);
+/// of the ways from one loose end through one partition only the best.
 ///
 /// From each loose end in a partition of at least mean area: the shortest paths through faces of
 /// the partition to other lines, loose ends or the border, as far as `reach`, unless the way

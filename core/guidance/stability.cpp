@@ -21,7 +21,8 @@ constexpr double least_angle = 1.0, most_angle = 120.0;  // degrees
 std::vector<double> angles_of(const Curvatures& curvatures, std::size_t count) {
   float sharpest = 0.0f;
   for (const float beta : curvatures.beta) sharpest = std::max(sharpest, std::abs(beta));
-  const double low = std::max(least_angle, std::min(angle_noise(curvatures), most_angle / 2.0));
+  const double low =
+      std::max(least_angle, std::min(1.5 * angle_noise(curvatures), most_angle / 2.0));
   // A little beyond, so that the curve comes down to nothing where it does.
   const double high =
       std::clamp(1.05 * sharpest * 180.0 / std::numbers::pi, low + least_angle, most_angle);
@@ -103,6 +104,7 @@ Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvat
   if (thresholds.empty()) thresholds = angles_of(curvatures, count);
   std::sort(thresholds.begin(), thresholds.end());
   StabilityCurve curve;
+  curve.trivial = mesh.diagonal() / 2.0;  // a few short lines somewhere
   curve.points.resize(thresholds.size());
   std::mutex reporting;
   std::size_t done = 0;
@@ -210,6 +212,7 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
   });
   StabilityCurve curve;
   curve.logarithmic = true;
+  curve.trivial = 0.05;
   Growing groups(mesh.face_count(), options.min_faces);
   std::size_t next = 0;
   for (const double threshold : thresholds) {
@@ -238,19 +241,29 @@ std::optional<Plateau> plateau(const StabilityCurve& curve) {
     return curve.logarithmic ? std::log(std::max(points[k].threshold, 1e-300))
                              : points[k].threshold;
   };
+  const auto counts = [&](std::size_t k) {
+    return points[k].count > 0 && points[k].size >= curve.trivial;
+  };
   std::size_t peak = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].count > points[peak].count) peak = k;
+  std::size_t begin = peak;
+  while (begin < points.size() && counts(begin) && 2 * points[begin].count > points[peak].count)
+    ++begin;
+  if (begin == points.size() || !counts(begin)) begin = peak;  // nothing but the peak: no noise
+
+  constexpr double most_change = 1.25;
   std::optional<Plateau> best;
   double best_worth = 0.0;
-  for (std::size_t i = peak; i < points.size(); ++i) {
+  for (std::size_t i = begin; i < points.size(); ++i) {
     std::size_t fewest = points[i].count, most = points[i].count;
-    for (std::size_t j = i + 1; j < points.size() && fewest > 0; ++j) {
+    for (std::size_t j = i; j < points.size() && counts(j); ++j) {
       fewest = std::min(fewest, points[j].count);
       most = std::max(most, points[j].count);
-      if (fewest == 0) break;
-      const double change = std::log(static_cast<double>(most) / static_cast<double>(fewest));
-      const double worth = (place(j) - place(i)) * std::exp(-4.0 * change);
+      const double change = static_cast<double>(most) / static_cast<double>(fewest);
+      if (change > most_change) break;
+      if (j < i + 2) continue;
+      const double worth = (place(j) - place(i)) * std::exp(-4.0 * std::log(change));
       if (worth <= best_worth) continue;
       best_worth = worth;
       const double middle = (place(i) + place(j)) / 2.0;

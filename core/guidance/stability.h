@@ -25,6 +25,7 @@ struct StabilityPoint {
 struct StabilityCurve {
   std::vector<StabilityPoint> points;
   bool logarithmic = false;  ///< Stretches are measured in the logarithm of the threshold.
+  double trivial = 0.0;      ///< Sizes below this are next to nothing.
   bool operator==(const StabilityCurve&) const = default;
 };
 
@@ -36,9 +37,9 @@ struct Plateau {
 };
 
 /// Lines and their total length after find_sharp_edges() under `options` for each TV_IH.
-/// `thresholds`: degrees, 0 to 180, any order; empty: `count` of them evenly from the noise of the
-/// mesh to its sharpest edge, 120 degrees at most. One find_sharp_edges() per threshold, in
-/// parallel. Errors: cancelled.
+/// `thresholds`: degrees, 0 to 180, any order; empty: `count` of them evenly from 1.5 times the
+/// noise of the mesh to its sharpest edge, 120 degrees at most. One find_sharp_edges() per
+/// threshold, in parallel. Errors: cancelled.
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
                                       const SharpLineOptions& options,
                                       std::vector<double> thresholds = {}, std::size_t count = 24,
@@ -55,10 +56,12 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
                                            std::vector<double> thresholds = {},
                                            std::size_t count = 24, const Context& context = {});
 
-/// The widest stretch over which the count changes least: of all stretches of two points and more
-/// the one with the largest width * exp(-4 |log of largest to smallest count|), so that twice the
-/// width is worth a change by 19 %. Left out are points with nothing found and those below the
-/// count's peak, where the noise runs together. Nothing where less than two points remain.
+/// The widest stretch over which the count changes least: of the stretches of three points and
+/// more over which it changes by 25 % at most, the one with the largest width * exp(-4 |log of
+/// largest to smallest count|), so that twice the width is worth a change by 19 %. Left out are
+/// the trivial ends: points with next to nothing found (size below `trivial`) and, where others
+/// remain, those up to where the count has fallen to half its peak (noise). Nothing where there is
+/// no such stretch: many noisy scans have none.
 std::optional<Plateau> plateau(const StabilityCurve& curve);
 
 }  // namespace arris

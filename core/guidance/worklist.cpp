@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <unordered_map>
@@ -26,8 +27,11 @@ constexpr double walk_share = 0.5, walk_cosine = 0.5;
 /// Places looked at from one loose end, the cheapest first.
 constexpr std::size_t most_arrivals = 8;
 
-std::string mm_text(double length) { return number_text(length, 3) + " mm"; }
-std::string area_text(double area) { return number_text(area, 3) + " mm²"; }
+std::string size_text(double size) {
+  return size < 100.0 ? number_text(size, 3) : fixed_text(size, 0);
+}
+std::string mm_text(double length) { return size_text(length) + " mm"; }
+std::string area_text(double area) { return size_text(area) + " mm²"; }
 
 /// The vertices that span a set: those farthest out along each axis.
 std::vector<VertexId> extremes(const Mesh& mesh, const std::vector<VertexId>& vertices) {
@@ -88,8 +92,9 @@ class Continuations {
           const auto round = along.find(v);
           if (round != along.end() && round->second < LineEnds::detour * search.length_to(v))
             return Visit::do_not_pass;
-          // One arrival at each line, but each loose end, too.
-          if (!ends_.is_loose(v) && !arrived.insert(line).second) return Visit::do_not_pass;
+          // One arrival at each line, and at each loose end whatever came first.
+          const bool fresh = arrived.insert(line).second;
+          if (!fresh && !ends_.is_loose(v)) return Visit::do_not_pass;
           found.push_back(judged(end, search.path_to(v), true));
           return ++arrivals < most_arrivals ? Visit::do_not_pass : Visit::finish;
         });
