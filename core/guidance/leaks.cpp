@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -23,7 +23,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Ways tried from one loose end, each to another line.
 constexpr std::size_t most_ways = 3;
 /// Gaps weighed against each other in one partition, the shortest first: bounds the quadratic part.
-constexpr std::size_t most_gaps = 1000;
+constexpr std::size_t most_gaps = 500;
 /// In mean edge lengths: below this the length of a gap says more of the triangles than of the gap,
 /// and the corner that a line leaves beside a single edge would score high.
 constexpr double least_gap = 3.0;
@@ -41,6 +41,13 @@ struct Region {
   double area = 0.0;
   double value = 0.0;       // sum of area * criterion
   double value_area = 0.0;  // area of the faces that have one
+
+  Region& operator+=(const Region& other) {
+    area += other.area;
+    value += other.value;
+    value_area += other.value_area;
+    return *this;
+  }
 };
 
 /// Two regions that meet along edges of these gaps (sorted, at least one).
@@ -157,88 +164,76 @@ class PartedPartition {
   }
 
   std::vector<Leak> leaks() const {
-    std::vector<Leak> best(gaps_.size());
-    for (std::uint32_t g = 0; g < gaps_.size(); ++g) {
-      if (links_of_[g].empty()) continue;
-      weigh(
-          g, [&](std::uint32_t other) { return other == g; }, best);
-      if (best[g].score > 0.0) continue;
-      weigh(
-          g, [&](std::uint32_t other) { return other <= g; }, best);
-    }
-    std::erase_if(best, [](const Leak& leak) { return leak.score <= 0.0; });
-    return best;
+    std::vector<Leak> result;
+    for (std::uint32_t g = 0; g < gaps_.size(); ++g)
+      if (std::optional<Leak> leak = weigh(g)) result.push_back(std::move(*leak));
+    return result;
   }
 
  private:
-  /// Closes the gaps `closed(g)`; where that parts what lies on the two sides of gap g, the gaps
-  /// between the two are leaks.
-  template <class Closed>
-  void weigh(std::uint32_t g, const Closed& closed, std::vector<Leak>& best) const {
+  /// Closes gap g and those that are shorter. Where that parts the two sides of g, opens again,
+  /// the longest first, what does not join them: the gaps that stay closed part the partition in
+  /// two. Where g alone does it, all others open again.
+  std::optional<Leak> weigh(std::uint32_t g) const {
     Groups groups(regions_.size());
     for (const Link& link : links_)
-      if (std::ranges::none_of(link.gaps, closed)) groups.join(link.a, link.b);
-    std::set<std::uint32_t> sides;
-    bool parts = false;
-    for (const std::uint32_t l : links_of_[g]) {
-      const std::uint32_t a = groups.find(links_[l].a), b = groups.find(links_[l].b);
-      parts |= a != b;
-      sides.insert({a, b});
+      if (link.gaps.front() > g) groups.join(link.a, link.b);
+    const auto parting = std::ranges::find_if(links_of_[g], [&](std::uint32_t l) {
+      return groups.find(links_[l].a) != groups.find(links_[l].b);
+    });
+    if (parting == links_of_[g].end()) return std::nullopt;
+    const std::uint32_t one = links_[*parting].a, two = links_[*parting].b;
+    std::vector<bool> closed(gaps_.size(), false);
+    std::fill_n(closed.begin(), g + 1, true);
+    std::vector<std::uint32_t> kept{g};
+    for (std::uint32_t other = g; other-- > 0;) {
+      closed[other] = false;
+      // The links of a gap open all at once, or not at all.
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> opening;
+      for (const std::uint32_t l : links_of_[other])
+        if (std::ranges::none_of(links_[l].gaps, [&](std::uint32_t k) { return closed[k]; }))
+          opening.emplace_back(groups.find(links_[l].a), groups.find(links_[l].b));
+      if (joins(opening, groups.find(one), groups.find(two))) {
+        closed[other] = true;
+        kept.push_back(other);
+      } else {
+        for (const auto& [a, b] : opening) groups.join(a, b);
+      }
     }
-    if (!parts) return;
-    std::unordered_map<std::uint32_t, Region> sums;
-    for (std::uint32_t r = 0; r < regions_.size(); ++r) {
-      const std::uint32_t side = groups.find(r);
-      if (!sides.contains(side)) continue;
-      Region& sum = sums[side];
-      sum.area += regions_[r].area;
-      sum.value += regions_[r].value;
-      sum.value_area += regions_[r].value_area;
-    }
-    // A path that crosses others can part more than two; the largest stands against the rest.
-    std::uint32_t largest = *sides.begin();
-    for (const std::uint32_t side : sides)
-      if (sums[side].area > sums[largest].area) largest = side;
-    Region rest;
-    for (const std::uint32_t side : sides) {
-      if (side == largest) continue;
-      rest.area += sums[side].area;
-      rest.value += sums[side].value;
-      rest.value_area += sums[side].value_area;
-    }
-    std::set<std::uint32_t> between;
-    for (const Link& link : links_) {
-      const std::uint32_t a = groups.find(link.a), b = groups.find(link.b);
-      if (a == b || !sides.contains(a) || !sides.contains(b)) continue;
-      for (const std::uint32_t other : link.gaps)
-        if (closed(other)) between.insert(other);
-    }
-    double length = 0.0, sharpness = 0.0;
-    for (const std::uint32_t other : between) {
-      length += gaps_[other].length;
-      sharpness += gaps_[other].length * gaps_[other].sharpness;
-    }
-    sharpness /= length;
-    const Region& large = sums[largest];
+    Region first, second;
+    for (std::uint32_t r = 0; r < regions_.size(); ++r)
+      (groups.find(r) == groups.find(one) ? first : second) += regions_[r];
     double contrast = 0.0;
-    if (large.value_area > 0.0 && rest.value_area > 0.0) {
-      const double x = large.value / large.value_area, y = rest.value / rest.value_area;
+    if (first.value_area > 0.0 && second.value_area > 0.0) {
+      const double x = first.value / first.value_area, y = second.value / second.value_area;
       if (x + y > 0.0) contrast = std::abs(x - y) / (x + y);
     }
-    const double floored = std::max(length, least_gap_);
-    const double score =
-        rest.area / (floored * floored) * (1.0 + contrast) * (0.2 + 0.8 * sharpness);
-    for (const std::uint32_t other : between) {
-      Leak& leak = best[other];
-      if (leak.score >= score) continue;
-      leak = {gaps_[other].partition,
-              gaps_[other].vertices,
-              gaps_[other].length,
-              static_cast<std::uint32_t>(between.size()),
-              rest.area,
-              contrast,
-              score};
+    double length = 0.0, sharpness = 0.0;
+    for (const std::uint32_t k : kept) {
+      length += gaps_[k].length;
+      sharpness += gaps_[k].length * gaps_[k].sharpness;
     }
+    sharpness /= length;
+    const double area = std::min(first.area, second.area);
+    const double floored = std::max(length, least_gap_);
+    const double score = area / (floored * floored) * (1.0 + contrast) * (0.2 + 0.8 * sharpness);
+    Leak leak{gaps_[g].partition, gaps_[g].vertices, {}, length, area, contrast, score};
+    for (std::size_t k = 1; k < kept.size(); ++k) leak.others.push_back(gaps_[kept[k]].vertices);
+    return leak;
+  }
+
+  /// Whether the pairs of groups connect `from` with `to`.
+  static bool joins(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
+                    std::uint32_t from, std::uint32_t to) {
+    std::vector<std::uint32_t> reached{from};
+    const auto has = [&](std::uint32_t k) {
+      return std::ranges::find(reached, k) != reached.end();
+    };
+    for (std::size_t next = 0; next < reached.size(); ++next)
+      for (const auto& [a, b] : pairs)
+        for (const auto& [here, there] : {std::pair{a, b}, std::pair{b, a}})
+          if (here == reached[next] && !has(there)) reached.push_back(there);
+    return has(to);
   }
 
   std::vector<Gap> gaps_;  // by increasing length
@@ -345,11 +340,14 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
     if (a.score != b.score) return a.score > b.score;
     return a.path != b.path ? a.path < b.path : a.partition < b.partition;
   });
-  // One way from each loose end, the best, and what has to be closed together with it.
-  std::map<std::pair<std::uint32_t, VertexId>, double> best_from;
+  // A loose end that a better leak closes already is no place for another.
+  std::set<std::pair<std::uint32_t, VertexId>> used;
   std::erase_if(leaks, [&](const Leak& leak) {
-    return best_from.try_emplace({leak.partition, leak.path.front()}, leak.score).first->second >
-           leak.score;
+    if (used.contains({leak.partition, leak.path.front()})) return true;
+    used.insert({leak.partition, leak.path.front()});
+    for (const std::vector<VertexId>& path : leak.others)
+      used.insert({leak.partition, path.front()});
+    return false;
   });
   if (leaks.size() > options.most) leaks.resize(options.most);
   context.report(1.0, "leaks");

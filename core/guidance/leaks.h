@@ -22,14 +22,13 @@ struct LeakOptions {
 struct Leak {
   std::uint32_t partition = 0;
   std::vector<VertexId> path;  ///< From a loose end to a line, another loose end or the border.
-  double gap = 0.0;            ///< Length of the path, mm.
-  /// Gaps that have to be closed to part the partition here, this one among them: 1 where it does
-  /// so alone.
-  std::uint32_t together = 1;
+  /// Shorter gaps that have to be closed as well; none where the first does it alone.
+  std::vector<std::vector<VertexId>> others;
+  double gap = 0.0;   ///< Length of all these paths, mm.
   double area = 0.0;  ///< Of the smaller side that is parted, mm^2.
   /// How different the two sides are in mean criterion value: 0 (alike) to 1.
   double contrast = 0.0;
-  /// area / (length of the gaps closed together, at least 3 mean edges)^2, times 1 + contrast,
+  /// area / gap^2 (gap counts as 3 mean edges at least), times 1 + contrast,
   /// times 0.2 (the path is as flat as noise makes edges) to 1 (it turns like a line that was
   /// missed).
   double score = 0.0;
@@ -41,7 +40,7 @@ struct Leak {
 /// From each loose end in a partition of at least mean area: the shortest paths through faces of
 /// the partition to other lines, loose ends or the border, as far as `reach`, unless the way
 /// along the lines is not much longer. A path counts as a leak where it, or it and the gaps that
-/// are shorter, parts the partition in two. Each region between lines and paths is flooded once, so
+/// are shorter, part the partition in two. Each region between lines and paths is flooded once, so
 /// the time is that of one pass over the faces of large partitions plus what lies round loose ends.
 /// Our addition. `curvatures`: those the partitions were found by. Errors: cancelled.
 Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatures,

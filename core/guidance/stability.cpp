@@ -16,13 +16,12 @@ namespace arris {
 
 namespace {
 
-constexpr double least_angle = 1.0, most_angle = 120.0;  // degrees
+constexpr double least_angle = 1.0, most_low = 30.0, most_angle = 120.0;  // degrees
 
 std::vector<double> angles_of(const Curvatures& curvatures, std::size_t count) {
   float sharpest = 0.0f;
   for (const float beta : curvatures.beta) sharpest = std::max(sharpest, std::abs(beta));
-  const double low =
-      std::max(least_angle, std::min(1.5 * angle_noise(curvatures), most_angle / 2.0));
+  const double low = std::max(least_angle, std::min(1.5 * angle_noise(curvatures), most_low));
   // A little beyond, so that the curve comes down to nothing where it does.
   const double high =
       std::clamp(1.05 * sharpest * 180.0 / std::numbers::pi, low + least_angle, most_angle);

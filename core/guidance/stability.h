@@ -38,8 +38,8 @@ struct Plateau {
 
 /// Lines and their total length after find_sharp_edges() under `options` for each TV_IH.
 /// `thresholds`: degrees, 0 to 180, any order; empty: `count` of them evenly from 1.5 times the
-/// noise of the mesh to its sharpest edge, 120 degrees at most. One find_sharp_edges() per
-/// threshold, in parallel. Errors: cancelled.
+/// noise of the mesh (30 degrees at most) to its sharpest edge (120 at most). One
+/// find_sharp_edges() per threshold, in parallel. Errors: cancelled.
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
                                       const SharpLineOptions& options,
                                       std::vector<double> thresholds = {}, std::size_t count = 24,

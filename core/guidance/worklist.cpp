@@ -251,17 +251,20 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
     WorkItem item;
     item.kind = WorkKind::leak;
     item.size = leak.score;
-    item.vertices = leak.path;
+    item.paths = leak.others;
+    item.paths.insert(item.paths.begin(), leak.path);
+    for (const std::vector<VertexId>& path : item.paths)
+      item.vertices.insert(item.vertices.end(), path.begin(), path.end());
     item.partitions = {leak.partition};
-    for (const VertexId v : {leak.path.front(), leak.path.back()})
-      if (const std::uint32_t line = ends.line_at(v);
-          line != 0 && std::ranges::find(item.lines, line) == item.lines.end())
-        item.lines.push_back(line);
-    item.sentence = "Partition " + std::to_string(leak.partition) + " runs through a gap of " +
-                    mm_text(leak.gap) + " into another " + area_text(leak.area) +
-                    (leak.together > 1 ? "; " + std::to_string(leak.together) +
-                                             " gaps have to be closed together."
-                                       : ".");
+    std::set<std::uint32_t> beside;
+    for (const VertexId v : item.vertices)
+      if (const std::uint32_t line = ends.line_at(v); line != 0) beside.insert(line);
+    item.lines.assign(beside.begin(), beside.end());
+    const std::size_t gaps = item.paths.size();
+    item.sentence = "Partition " + std::to_string(leak.partition) + " runs through " +
+                    (gaps == 1 ? std::string("a gap") : std::to_string(gaps) + " gaps") + " of " +
+                    mm_text(leak.gap) + (gaps == 1 ? "" : " in all") + " into another " +
+                    area_text(leak.area) + ".";
     items.push_back(std::move(item));
   }
   return items;

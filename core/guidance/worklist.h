@@ -41,10 +41,11 @@ struct WorkItem {
   /// Ranks within the kind: score of the leak; length of the line that stops, mm; area, mm^2;
   /// length of the boundary, mm; number of borderlines; length over width.
   double size = 0.0;
-  std::vector<VertexId> vertices;  ///< To zoom to: the path, or what spans the area.
+  std::vector<VertexId> vertices;  ///< To zoom to: the paths, or what spans the area.
   std::vector<std::uint32_t> lines, partitions;
-  FaceId face = no_id;                      ///< unassigned_area: its lowest face.
-  std::vector<Continuation> continuations;  ///< loose_end: the best first.
+  std::vector<std::vector<VertexId>> paths;  ///< leak: the gaps, to be closed together.
+  FaceId face = no_id;                       ///< unassigned_area: its lowest face.
+  std::vector<Continuation> continuations;   ///< loose_end: the best first.
 };
 
 struct WorklistOptions {
