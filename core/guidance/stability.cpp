@@ -212,6 +212,7 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
   StabilityCurve curve;
   curve.logarithmic = true;
   curve.trivial = 0.05;
+  curve.trivial_count = 1;
   Growing groups(mesh.face_count(), options.min_faces);
   std::size_t next = 0;
   for (const double threshold : thresholds) {
@@ -241,7 +242,7 @@ std::optional<Plateau> plateau(const StabilityCurve& curve) {
                              : points[k].threshold;
   };
   const auto counts = [&](std::size_t k) {
-    return points[k].count > 0 && points[k].size >= curve.trivial;
+    return points[k].count > curve.trivial_count && points[k].size >= curve.trivial;
   };
   std::size_t peak = 0;
   for (std::size_t k = 0; k < points.size(); ++k)

@@ -24,8 +24,9 @@ struct StabilityPoint {
 /// How many lines or partitions each threshold gives, by increasing threshold.
 struct StabilityCurve {
   std::vector<StabilityPoint> points;
-  bool logarithmic = false;  ///< Stretches are measured in the logarithm of the threshold.
-  double trivial = 0.0;      ///< Sizes below this are next to nothing.
+  bool logarithmic = false;       ///< Stretches are measured in the logarithm of the threshold.
+  double trivial = 0.0;           ///< Sizes below this are next to nothing,
+  std::size_t trivial_count = 0;  ///< and so are counts up to this.
   bool operator==(const StabilityCurve&) const = default;
 };
 
@@ -59,9 +60,10 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
 /// The widest stretch over which the count changes least: of the stretches of three points and
 /// more over which it changes by 25 % at most, the one with the largest width * exp(-4 |log of
 /// largest to smallest count|), so that twice the width is worth a change by 19 %. Left out are
-/// the trivial ends: points with next to nothing found (size below `trivial`) and, where others
-/// remain, those up to where the count has fallen to half its peak (noise). Nothing where there is
-/// no such stretch: many noisy scans have none.
+/// the trivial ends: points with next to nothing found (for lines in all shorter than half the
+/// diagonal; for partitions a single one, or 5 % of the area) and, where others remain, those up to
+/// where the count has fallen to half its peak (noise). Nothing where there is no such stretch:
+/// many noisy scans have none.
 std::optional<Plateau> plateau(const StabilityCurve& curve);
 
 }  // namespace arris

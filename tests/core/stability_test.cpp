@@ -164,6 +164,9 @@ TEST(PlateauOfACurve, LeavesOutNextToNothing) {
   EXPECT_TRUE(plateau(curve));
   curve.trivial = 5.0;
   EXPECT_FALSE(plateau(curve));
+  curve.trivial = 0.0;
+  curve.trivial_count = 2;
+  EXPECT_FALSE(plateau(curve));
 }
 
 }  // namespace
