@@ -26,6 +26,13 @@ class Context {
     if (progress_) progress_(begin_ + (end_ - begin_) * fraction, what);
   }
 
+  /// The same without reports, for parts of the work that run side by side.
+  Context silent() const {
+    Context result = *this;
+    result.progress_ = nullptr;
+    return result;
+  }
+
   /// The share of this context from `begin` to `end` (fractions of it), for one part of the work.
   Context part(double begin, double end) const {
     Context result = *this;

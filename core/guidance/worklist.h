@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/document/document.h"
+#include "core/mesh/mesh.h"
+
+namespace arris {
+
+/// What is left to do, in the order in which it is best done: what is wrong with lines first, since
+/// it spoils the partitions; then what the partitions leave out; then what is merely odd.
+enum class WorkKind : std::uint8_t {
+  leak,                ///< A gap through which a front ran (core/guidance/leaks.h).
+  loose_end,           ///< A line just stops inside the scan.
+  unassigned_area,     ///< Connected faces of no partition.
+  undefined_boundary,  ///< A partition ends, and no other begins.
+  many_borders,        ///< A partition with more than four borderlines.
+  sliver,              ///< A partition narrow compared with its length.
+};
+
+std::string_view name_of(WorkKind kind);  ///< "leak", "loose_end", ...
+
+/// A way to go on from a loose end.
+struct Continuation {
+  std::vector<VertexId> vertices;  ///< From the loose end on.
+  double length = 0.0;             ///< mm
+  double score = 0.0;      ///< 0 to 1: how sharp, straight and short it is, and what it arrives at.
+  std::uint32_t line = 0;  ///< The line it arrives at; 0: the border, or nothing.
+  bool arrives = false;    ///< False for a walk that fades out.
+};
+
+struct WorkItem {
+  WorkKind kind = WorkKind::leak;
+  std::string sentence;
+  /// Ranks within the kind: score of the leak; length of the line that stops, mm; area, mm^2;
+  /// length of the boundary, mm; number of borderlines; length over width.
+  double size = 0.0;
+  std::vector<VertexId> vertices;  ///< To zoom to: the paths, or what spans the area.
+  std::vector<std::uint32_t> lines, partitions;
+  std::vector<std::vector<VertexId>> paths;  ///< leak: the gaps, to be closed together.
+  FaceId face = no_id;                       ///< unassigned_area: its lowest face.
+  std::vector<Continuation> continuations;   ///< loose_end: the best first.
+};
+
+struct WorklistOptions {
+  std::size_t most_per_kind = 200;
+  std::size_t most_continuations = 3;
+  double reach = 15.0;        ///< Of leaks and continuations, in mean edge lengths.
+  int most_borderlines = 4;   ///< A partition with more is listed.
+  double sliver_ratio = 8.0;  ///< A partition is a sliver where length / width is above this
+  double sliver_width = 3.0;  ///< and its width below this many mean edge lengths.
+};
+
+/// What is left to do on a document: by kind, within a kind by decreasing size, ties by the lowest
+/// vertex. Steps that were not run leave out what depends on them. Errors: cancelled.
+Result<std::vector<WorkItem>> worklist(const Document& document,
+                                       const WorklistOptions& options = {},
+                                       const Context& context = {});
+
+}  // namespace arris

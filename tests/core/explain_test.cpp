@@ -1,0 +1,258 @@
+#include "core/guidance/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/sharp_lines/automatic_treatments.h"
+#include "core/sharp_lines/sharp_lines.h"
+#include "tests/support/documents.h"
+
+namespace arris {
+namespace {
+
+using namespace arris::testing;
+
+const ExplainedTest* find_test(const Explanation& explanation, const std::string& begin) {
+  for (const ExplainedTest& test : explanation.tests)
+    if (test.name.starts_with(begin)) return &test;
+  return nullptr;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+double degrees(const Document& document, EdgeId e) {
+  return std::abs(document.curvatures->beta[e]) * 180.0 / std::numbers::pi;
+}
+
+/// A segmented sample mould.
+Document segmented_mould() {
+  return applied(applied(document_of(sample_mould(1.8)), {"find_sharp_lines", {}}),
+                 {"find_partitions", {}});
+}
+
+/// What must hold of every edge and face, whatever the document.
+void expect_agreement(const Document& document) {
+  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
+    const Explanation explanation = explain_edge(document, e);
+    const bool sharp = document.lines.is_sharp(e);
+    ASSERT_EQ(explanation.holds, sharp);
+    ASSERT_EQ(explanation.headline.starts_with("On line "), sharp) << explanation.headline;
+    ASSERT_EQ(explanation.headline.starts_with("Not on a line: "), !sharp) << explanation.headline;
+    if (sharp) {
+      const std::uint32_t id =
+          static_cast<std::uint32_t>(std::stoul(explanation.headline.substr(8)));
+      const Line* line = document.lines.find(id);
+      ASSERT_NE(line, nullptr);
+      for (const VertexId v : document.mesh->edge(e))
+        ASSERT_NE(std::ranges::find(line->vertices, v), line->vertices.end());
+    }
+  }
+  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
+    const Explanation explanation = explain_face(document, f);
+    const std::uint32_t label = document.partitions.label(f);
+    ASSERT_EQ(explanation.holds, label != 0);
+    const std::string begin =
+        label != 0 ? "In partition " + std::to_string(label) : std::string("In no partition: ");
+    ASSERT_TRUE(explanation.headline.starts_with(begin)) << explanation.headline;
+  }
+}
+
+TEST(ExplainEdge, EdgesOfACubePassEveryTestAndFlatOnesFailAtTheAngle) {
+  for (const int divisions : {1, 4}) {
+    SCOPED_TRACE(divisions);
+    const Document document =
+        applied(document_of(divided_cube(10.0, divisions)), {"find_sharp_lines", {}});
+    int sharp = 0;
+    for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
+      const Explanation explanation = explain_edge(document, e);
+      if (degrees(document, e) > 45.0) {
+        ++sharp;
+        EXPECT_TRUE(explanation.holds);
+        EXPECT_TRUE(contains(explanation.headline, "found; convex 90.0 degrees."))
+            << explanation.headline;
+        EXPECT_FALSE(explanation.tests.empty());
+        for (const ExplainedTest& test : explanation.tests)
+          EXPECT_TRUE(test.passed) << test.sentence;
+        continue;
+      }
+      EXPECT_FALSE(explanation.holds);
+      EXPECT_TRUE(contains(explanation.headline, "angle of 0.0 degrees")) << explanation.headline;
+      const ExplainedTest* angle = find_test(explanation, "|IHe|");
+      ASSERT_NE(angle, nullptr);
+      EXPECT_FALSE(angle->passed);
+      EXPECT_NEAR(angle->value, 0.0, 1e-4);
+      EXPECT_EQ(angle->threshold, document.find_sharp_lines->parameters.at("angle"));
+      EXPECT_EQ(angle->unit, "°");
+    }
+    EXPECT_EQ(sharp, 12 * divisions);
+  }
+}
+
+TEST(ExplainEdge, ConcaveAndConvexAreToldApart) {
+  const Document document =
+      applied(document_of(stepped_plate(10.0, 20.0, 4.0, 1.0)), {"find_sharp_lines", {}});
+  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e)
+    if (document.lines.is_sharp(e)) {
+      EXPECT_TRUE(contains(explain_edge(document, e).headline,
+                           document.curvatures->beta[e] > 0 ? "convex 90.0" : "concave 90.0"));
+    }
+}
+
+TEST(ExplainEdge, TheBorderAndStepsThatWereNotRunAreNamed) {
+  const Document plain = document_of(noisy_plane(6.0, 1.0, 0.0, 0.0, 1));
+  EXPECT_TRUE(contains(explain_edge(plain, 0).headline, "not looked for yet"));
+  EXPECT_TRUE(contains(explain_face(plain, 0).headline, "not looked for yet"));
+  const Document found = applied(plain, {"find_sharp_lines", {}});
+  for (EdgeId e = 0; e < found.mesh->edge_count(); ++e)
+    EXPECT_EQ(contains(explain_edge(found, e).headline, "the scan ends"),
+              found.mesh->is_border_edge(e));
+  EXPECT_EQ(explain_edge(found, no_id).headline, "There is no such edge.");
+  EXPECT_EQ(explain_face(found, no_id).headline, "There is no such face.");
+  EXPECT_FALSE(explain_edge(Document{}, 0).holds);
+  EXPECT_FALSE(explain_face(Document{}, 0).holds);
+}
+
+TEST(ExplainEdge, WhatACorrectionTookAwayIsSaidToBeSo) {
+  Document document = applied(document_of(divided_cube(10.0, 4)), {"find_sharp_lines", {}});
+  EdgeId taken = 0;
+  while (!document.lines.is_sharp(taken)) ++taken;
+  std::vector<Origin> edges(document.mesh->edge_count());
+  for (EdgeId e = 0; e < edges.size(); ++e) edges[e] = document.lines.edges[e];
+  edges[taken] = Origin::none;
+  EdgeId drawn = 0;
+  while (edges[drawn] != Origin::none || degrees(document, drawn) > 1.0) ++drawn;
+  edges[drawn] = Origin::drawn;
+  document.lines =
+      relink_lines(*document.mesh, *document.curvatures, edges, document.lines, document.next_id);
+  EXPECT_TRUE(contains(explain_edge(document, taken).headline, "correction took it away"));
+  const Explanation explanation = explain_edge(document, drawn);
+  EXPECT_TRUE(contains(explanation.headline, "drawn by hand"));
+  EXPECT_FALSE(find_test(explanation, "|IHe|")->passed);
+}
+
+TEST(Explain, AgreesWithTheDocumentOnEveryEdgeAndFaceOfTheSampleMould) {
+  const Document document = segmented_mould();
+  ASSERT_FALSE(document.lines.lines.empty());
+  ASSERT_FALSE(document.partitions.partitions.empty());
+  expect_agreement(document);
+}
+
+TEST(Explain, AgreesAfterStepsThatChangedTheMesh) {
+  const Document document = segmented_mould();
+  expect_agreement(applied(document, {"equilateralize", {}}));
+  expect_agreement(applied(document, {"simplify", {}}));
+}
+
+TEST(ExplainEdge, NamesTheTreatmentThatTookAnEdge) {
+  const Document document = segmented_mould();
+  const Mesh& mesh = *document.mesh;
+  const nlohmann::json& parameters = document.find_sharp_lines->parameters;
+  SharpLineOptions options;
+  options.angle = parameters.at("angle");
+  options.candidates = parameters.at("candidates");
+  const std::vector<Origin> found = identify_sharp_edges(mesh, *document.curvatures, options);
+  std::vector<Origin> without_parallel = found;
+  remove_parallel_lines(mesh, *document.curvatures, parameters.at("parallel_distance"),
+                        without_parallel);
+  int parallel = 0, short_ones = 0;
+  for (EdgeId e = 0; e < mesh.edge_count(); ++e) {
+    const Explanation explanation = explain_edge(document, e);
+    const bool taken = found[e] != Origin::none && !explanation.holds;
+    EXPECT_EQ(contains(explanation.headline, "it was found, but"), taken) << explanation.headline;
+    if (!taken) continue;
+    const bool was_parallel = without_parallel[e] == Origin::none;
+    EXPECT_EQ(contains(explanation.headline, "doubled"), was_parallel);
+    EXPECT_EQ(contains(explanation.headline, "shorter than min_length"), !was_parallel);
+    ++(was_parallel ? parallel : short_ones);
+  }
+  EXPECT_GT(parallel, 0);
+  EXPECT_GT(short_ones, 0);
+}
+
+TEST(ExplainFace, NamesTheVertexThatFailsAndByHowMuch) {
+  // The caps have Kabs 0, the wall 1/100.
+  Document document =
+      applied(document_of(capped_cylinder(10.0, 20.0, 48, 12, 6)), {"find_sharp_lines", {}});
+  document = applied(
+      document,
+      {"find_partitions", {{"intervals", {{0.0, 0.004}}}, {"fill_holes", 0}, {"min_faces", 1}}});
+  int outside = 0;
+  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
+    const Explanation explanation = explain_face(document, f);
+    if (explanation.holds) {
+      EXPECT_TRUE(contains(explanation.headline, "Kabs lies in the interval 0 to 0.004 1/mm²"))
+          << explanation.headline;
+      continue;
+    }
+    ++outside;
+    const ExplainedTest* failed = nullptr;
+    for (const ExplainedTest& test : explanation.tests)
+      if (test.name.starts_with("Kabs") && !test.passed) failed = &test;
+    ASSERT_NE(failed, nullptr) << explanation.headline;
+    EXPECT_NEAR(failed->value, 0.01, 5e-4);
+    EXPECT_EQ(failed->threshold, 0.004);
+    EXPECT_TRUE(contains(explanation.headline, " above 0 to 0.004 1/mm²")) << explanation.headline;
+  }
+  EXPECT_EQ(outside, 48 * 12 * 2) << "the wall";
+}
+
+TEST(ExplainFace, NamesSharpLinesAsWhatStopsTheFront) {
+  Document document = applied(document_of(divided_cube(10.0, 4)), {"find_sharp_lines", {}});
+  document = applied(document, {"find_partitions", {}});
+  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
+    const Explanation explanation = explain_face(document, f);
+    int stops = 0, sharp = 0;
+    HalfEdgeId h = document.mesh->face_half_edge(f);
+    for (int k = 0; k < 3; ++k, h = document.mesh->next(h))
+      sharp += document.lines.is_sharp(h >> 1);
+    for (const ExplainedTest& test : explanation.tests)
+      stops += test.name.starts_with("Side ") && contains(test.sentence, "stops every front");
+    EXPECT_EQ(stops, sharp);
+  }
+}
+
+TEST(ExplainFace, TooFewFacesForAPartition) {
+  Document document = applied(document_of(divided_cube(10.0, 4)), {"find_sharp_lines", {}});
+  document = applied(
+      document,
+      {"find_partitions", {{"intervals", {{0.0, 1.0}}}, {"fill_holes", 0}, {"min_faces", 33}}});
+  ASSERT_TRUE(document.partitions.partitions.empty()) << "each side has 32 faces";
+  int told = 0;
+  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
+    const Explanation explanation = explain_face(document, f);
+    EXPECT_FALSE(explanation.holds);
+    if (find_test(explanation, "Regular vertices")->passed) {
+      ++told;
+      EXPECT_TRUE(contains(explanation.headline, "fewer than the 33")) << explanation.headline;
+    }
+  }
+  EXPECT_GT(told, 0);
+}
+
+TEST(ExplainFace, JoinedWithoutAVoteAndFilledHolesAreToldApart) {
+  const Document document = segmented_mould();
+  int joined = 0, filled = 0;
+  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
+    const Explanation explanation = explain_face(document, f);
+    if (!explanation.holds) continue;
+    const bool vote = find_test(explanation, "Regular vertices")->passed;
+    const bool says_joined = contains(explanation.headline, "joined without a vote");
+    const bool says_filled = contains(explanation.headline, "filled as part of a hole");
+    EXPECT_FALSE(says_joined && vote);
+    joined += says_joined;
+    filled += says_filled;
+    if (!vote || says_filled) continue;
+    for (const ExplainedTest& test : explanation.tests)
+      EXPECT_TRUE(test.passed || !test.name.starts_with("Kabs")) << test.sentence;
+  }
+  EXPECT_GT(joined, 0);
+  EXPECT_GT(filled, 0);
+}
+
+}  // namespace
+}  // namespace arris
