@@ -16,6 +16,7 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 
 #include "ui/panels/controls.h"
@@ -86,8 +87,7 @@ class ColourMapPanel::Private {
   void show() {
     showing = true;
     field->setCurrentIndex(state.field);
-    field->setToolTip(
-        field_tooltips.value(state.field, QObject::tr("Which curvature colours the part.")));
+    field->setToolTip(field_tooltips.value(state.field, QObject::tr("What colours the part.")));
     map->setCurrentIndex(static_cast<int>(state.scale.map));
     const bool percentile = state.range == ColourMapState::Range::percentile;
     by_percentile->setChecked(percentile);
@@ -206,7 +206,7 @@ void ColourMapPanel::Private::build() {
   };
 
   field = new QuietCombo(q);
-  add(tr("&Field"), field, tr("Which curvature colours the part."));
+  add(tr("&Field"), field, tr("What colours the part."));
   map = new QuietCombo(q);
   map->addItems(colour_map_names());
   map->setIconSize(strip_size);
@@ -352,6 +352,14 @@ void ColourMapPanel::set_fields(const QStringList& names, const QStringList& too
     p_->field->setItemData(i, tooltips.value(i), Qt::ToolTipRole);
   }
   p_->show();
+}
+
+void ColourMapPanel::set_field_available(int field, bool available, const QString& reason) {
+  auto* items = qobject_cast<QStandardItemModel*>(p_->field->model());
+  QStandardItem* item = items ? items->item(field) : nullptr;
+  if (!item) return;
+  item->setEnabled(available);
+  item->setToolTip(available ? p_->field_tooltips.value(field) : reason);
 }
 
 void ColourMapPanel::set_state(const ColourMapState& state) {
