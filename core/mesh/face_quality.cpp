@@ -1,6 +1,10 @@
 #include "core/mesh/face_quality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -31,6 +35,22 @@ std::vector<double> face_qualities(const Mesh& mesh) {
   parallel_for(qualities.size(),
                [&](std::size_t f) { qualities[f] = face_quality(mesh, static_cast<FaceId>(f)); });
   return qualities;
+}
+
+double share_of_angles_above(const Mesh& mesh, double degrees) {
+  std::vector<std::uint8_t> counts(mesh.face_count());
+  const double limit = degrees * std::numbers::pi / 180.0;
+  parallel_for(counts.size(), [&](std::size_t f) {
+    const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point u = mesh.point(t[(k + 1) % 3]) - mesh.point(t[k]);
+      const Point v = mesh.point(t[(k + 2) % 3]) - mesh.point(t[k]);
+      if (std::atan2(u.cross(v).norm(), u.dot(v)) > limit) ++counts[f];
+    }
+  });
+  if (counts.empty()) return 0.0;
+  return std::accumulate(counts.begin(), counts.end(), 0.0) /
+         (3.0 * static_cast<double>(counts.size()));
 }
 
 }  // namespace arris

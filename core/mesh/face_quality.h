@@ -14,4 +14,7 @@ double face_quality(const Mesh& mesh, FaceId f);
 /// Of each face.
 std::vector<double> face_qualities(const Mesh& mesh);
 
+/// Share, 0 to 1, of the corners of all faces whose angle is above `degrees` (0 to 180).
+double share_of_angles_above(const Mesh& mesh, double degrees);
+
 }  // namespace arris

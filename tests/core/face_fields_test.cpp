@@ -48,6 +48,20 @@ TEST(FaceQuality, DoesNotDependOnWhichCornerComesFirst) {
   EXPECT_NEAR(face_quality(a, b, c), face_quality(c, b, a), 1e-15);
 }
 
+TEST(FaceQuality, WideAnglesAreCountedByCorner) {
+  // One right angle in each of the two halves of a square, none above it.
+  const MeshPtr square =
+      testing::mesh_of({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+  EXPECT_DOUBLE_EQ(share_of_angles_above(*square, 89.0), 2.0 / 6.0);
+  EXPECT_EQ(share_of_angles_above(*square, 91.0), 0.0);
+  EXPECT_DOUBLE_EQ(share_of_angles_above(*square, 1.0), 1.0);
+  // An equilateral mesh has 60 degrees everywhere.
+  const MeshPtr even =
+      testing::mesh_of({{{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(0.75), 0}}, {{0, 1, 2}}});
+  EXPECT_EQ(share_of_angles_above(*even, 60.1), 0.0);
+  EXPECT_EQ(share_of_angles_above(*even, 59.9), 1.0);
+}
+
 /// The square from (0, 0) to (4, 4) cut along its diagonal, and isolated points of the scan.
 MeshPtr square_with(const std::vector<Point>& removed) {
   testing::Triangles square{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{0, 1, 2}, {0, 2, 3}}};

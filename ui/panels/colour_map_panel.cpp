@@ -206,16 +206,16 @@ void ColourMapPanel::Private::build() {
   };
 
   field = new QuietCombo(q);
-  add(tr("&Field"), field, tr("What colours the part."));
+  add(tr("Fiel&d"), field, tr("What colours the part."));
   map = new QuietCombo(q);
   map->addItems(colour_map_names());
   map->setIconSize(strip_size);
   add(tr("&Map"), map, tr("The colours from low to high."));
 
   // The two ways to a range stand under each other, their ends in two columns.
-  by_percentile = new QRadioButton(tr("&Percentiles"), q);
+  by_percentile = new QRadioButton(tr("Per&centiles"), q);
   by_percentile->setToolTip(tr("The range leaves out these shares of the area at both ends."));
-  by_typing = new QRadioButton(tr("&Values"), q);
+  by_typing = new QRadioButton(tr("V&alues"), q);
   by_typing->setToolTip(tr("The range goes from and to these values of the field."));
   low = new NumberBox(q);
   high = new NumberBox(q);

@@ -291,15 +291,17 @@ QRectF paint_line_legend(QPainter& painter, const Look& look, QSizeF size, const
 
 /// Between the orientation marker and the scale bar where it fits there, else above them.
 void paint_hint(QPainter& painter, const Look& look, QSizeF size, const QString& hint) {
-  constexpr double sides = 190.0;  // that marker and scale bar may take
+  constexpr double left = 116.0, right = 196.0;  // that marker and scale bar may take
   const double line = QFontMetricsF(look.font).height();
   const double most = size.width() - 2 * margin - 2 * padding;
   const QString text = QFontMetricsF(look.font).elidedText(hint, Qt::ElideRight, most);
-  const double inner = text_width(look.font, text);
-  const bool between = inner + 2 * padding <= size.width() - 2 * sides;
-  const double bottom = size.height() - margin - (between ? 0.0 : 88.0);
-  const QRectF panel((size.width() - inner) / 2 - padding, bottom - line - 12.0,
-                     inner + 2 * padding, line + 12.0);
+  const double width = text_width(look.font, text) + 2 * padding;
+  const double height = line + 12.0;
+  const bool between = width <= size.width() - left - right;
+  const double middle = (size.width() - width) / 2;
+  const double x =
+      between ? std::clamp(middle, left, size.width() - right - width) : std::max(middle, margin);
+  const QRectF panel(x, size.height() - margin - height - (between ? 0.0 : 88.0), width, height);
   if (panel.top() < margin) return;
   paint_panel(painter, look, panel);
   paint_text(painter, look.font, look.text, panel, Qt::AlignCenter, text);

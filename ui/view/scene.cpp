@@ -46,8 +46,8 @@ constexpr const char* normal_code = R"(
 )";
 
 /// Shades without ever changing a hue, and full colour where the surface faces the viewer: colours
-/// on the part are those of the scalar bar. The back of the part is a dull grey. A dark rim shows
-/// where a section cuts.
+/// on the part are those of the scalar bar. The back of the part is a dull grey. A double rim
+/// shows where a section cuts, whatever the colours there.
 constexpr const char* light_code = R"(
   if (beyondVS > 0.0) discard;
   float key = max(dot(normalVCVSOutput, vec3(-0.38, 0.48, 0.79)), 0.0);
@@ -58,8 +58,9 @@ constexpr const char* light_code = R"(
   vec3 shaded = diffuseColor * mix(bare, coloured, colourShare);
   shaded += (1.0 - colourShare) * 0.10 * pow(key, 24.0);
   if (!gl_FrontFacing) shaded = vec3(0.47, 0.48, 0.52) * (0.35 + 0.65 * head);
-  shaded = mix(vec3(0.10, 0.12, 0.16), shaded,
-               smoothstep(cutRimWidth, cutRimWidth + 1.0, -beyondVS / cutRim));
+  float fromCut = -beyondVS / cutRim - cutRimWidth;
+  shaded = mix(vec3(1.0), shaded, smoothstep(cutRimWidth, cutRimWidth + 0.8, fromCut));
+  shaded = mix(vec3(0.06, 0.07, 0.10), shaded, smoothstep(0.0, 0.8, fromCut));
   gl_FragData[0] = vec4(shaded, opacity);
 )";
 

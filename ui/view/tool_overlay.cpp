@@ -104,9 +104,8 @@ void paint_tools(QPainter& painter, QSizeF size, const ToolOverlay& tools) {
     paint_box(painter, box_of(tools.measured_text, measured_place(tools), size),
               tools.measured_text, tools.dark);
   if (tools.band) {
-    painter.setPen(QPen(accent, 1.2, Qt::DashLine));
-    painter.setBrush(QColor(accent.red(), accent.green(), accent.blue(), 36));
-    painter.drawRect(*tools.band);
+    painter.fillRect(*tools.band, QColor(accent.red(), accent.green(), accent.blue(), 40));
+    paint_twice(painter, accent, 1.4, Qt::SolidLine, [&] { painter.drawRect(*tools.band); });
   }
 }
 

@@ -33,6 +33,7 @@
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
 #include "core/simplification/occupancy.h"
+#include "ui/panels/controls.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
@@ -48,11 +49,12 @@ constexpr int most_recent = 10;
 constexpr int progress_delay = 300;  // ms: shorter work shows no progress
 
 QString number(double value, int digits = 4) {
-  return std::isnan(value) ? QString("–") : QString::fromStdString(number_text(value, digits));
+  return std::isnan(value) ? QString("–")
+                           : QString::fromStdString(arris::number_text(value, digits));
 }
 
 QString counted(std::size_t count, const QString& what) {
-  return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + what;
+  return count_text(static_cast<qint64>(count)) + " " + what;
 }
 
 }  // namespace
@@ -118,6 +120,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     else
       view_->look_from(MeshView::StandardView::isometric);
     show_partitions(false);
+    view_->setFocus();
     remember_recent(path);
     if (!document.scan->report.clean())
       statusBar()->showMessage(
@@ -155,6 +158,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
                                                                    : nullptr;
     if (name) findChild<QDockWidget*>(name)->raise();
   });
+  connect(elements_, &ElementsPresenter::visibility_changed, this, &MainWindow::refresh_counts);
   connect(view_, &MeshView::hovered, this, &MainWindow::show_hover);
   connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
   connect(fields_, &FieldPresenter::changed, this, [this] {
@@ -412,6 +416,7 @@ void MainWindow::make_actions() {
   section_bar_->setObjectName("section");
   section_bar_->toggleViewAction()->setVisible(false);
   addToolBar(section_bar_);
+  bar->setMinimumHeight(section_bar_->sizeHint().height());  // nothing moves when it comes
 }
 
 void MainWindow::open(const QString& path) {
@@ -684,6 +689,7 @@ void MainWindow::refresh_counts() {
     text += "  ·  " + counted(document.lines.lines.size(), tr("lines"));
   if (document.find_partitions)
     text += "  ·  " + counted(document.partitions.partitions.size(), tr("partitions"));
+  if (elements_->hides_any()) text += "  ·  " + tr("some hidden (Shift+H shows all)");
   counts_label_->setText(text);
 }
 

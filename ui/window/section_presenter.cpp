@@ -1,6 +1,7 @@
 #include "ui/window/section_presenter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 #include <QActionGroup>
@@ -69,20 +70,18 @@ void SectionPresenter::choose(Direction direction) {
     show();
     return;
   }
-  const Mesh& mesh = *document.mesh;
-  const Point middle = (mesh.box_min() + mesh.box_max()) / 2;
   switch (direction) {
     case Direction::x:
-      cut(direction, Point::UnitX(), middle);
+      cut(direction, Point::UnitX());
       break;
     case Direction::y:
-      cut(direction, Point::UnitY(), middle);
+      cut(direction, Point::UnitY());
       break;
     case Direction::z:
-      cut(direction, Point::UnitZ(), middle);
+      cut(direction, Point::UnitZ());
       break;
     case Direction::view:
-      cut(direction, view_->towards_viewer(), middle);
+      cut(direction, view_->towards_viewer());
       break;
     case Direction::three_points:
       view_->set_tool(Tool::path, tr("Section: click three points of the part  ·  Backspace takes "
@@ -95,24 +94,24 @@ void SectionPresenter::choose(Direction direction) {
   }
 }
 
-void SectionPresenter::cut(Direction direction, const Point& normal, const Point& point) {
+void SectionPresenter::cut(Direction direction, const Point& normal,
+                           std::optional<double> position) {
   direction_ = direction;
   axis_ = normal;
-  position_ = normal.dot(point);
   flipped_ = normal.dot(view_->towards_viewer()) < 0.0;
   const Mesh& mesh = *session_->shown().document.mesh;
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Point at((corner & 1 ? mesh.box_max() : mesh.box_min()).x(),
-                   (corner & 2 ? mesh.box_max() : mesh.box_min()).y(),
-                   (corner & 4 ? mesh.box_max() : mesh.box_min()).z());
-    low = std::min(low, axis_.dot(at));
-    high = std::max(high, axis_.dot(at));
+  for (const Triangle& t : mesh.triangles()) {
+    for (const VertexId v : t) {
+      low = std::min(low, axis_.dot(mesh.point(v)));
+      high = std::max(high, axis_.dot(mesh.point(v)));
+    }
   }
   if (!(high > low)) {  // a flat part, cut along itself
     low -= 0.5;
     high += 0.5;
   }
+  position_ = position.value_or((low + high) / 2);
   const QString name = direction == Direction::x      ? "X"
                        : direction == Direction::y    ? "Y"
                        : direction == Direction::z    ? "Z"
@@ -145,9 +144,10 @@ void SectionPresenter::take_point(const Pick& pick) {
     emit message(tr("The three points lie on one line: click another third point."));
     return;
   }
-  const Point point = picks_.front();
+  const Point axis = normal.normalized();
+  const double position = axis.dot(picks_.front());
   view_->set_tool(Tool::select);
-  cut(Direction::three_points, normal.normalized(), point);
+  cut(Direction::three_points, axis, position);
 }
 
 void SectionPresenter::stop_picking() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <QObject>
@@ -29,8 +30,9 @@ class SectionPresenter : public QObject {
  private:
   enum class Direction { off, x, y, z, view, three_points };
   void choose(Direction direction);
-  /// The plane with this normal, through `point`; the side towards the viewer is cut away.
-  void cut(Direction direction, const Point& normal, const Point& point);
+  /// The plane with this normal at `position` along it, or through the middle of the part; the side
+  /// towards the viewer is cut away.
+  void cut(Direction direction, const Point& normal, std::optional<double> position = {});
   void show();
   void take_point(const Pick& pick);
   void stop_picking();
