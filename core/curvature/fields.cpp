@@ -9,21 +9,25 @@
 
 namespace arris {
 
-const std::array<FieldInfo, 8>& field_table() {
-  static constexpr std::array<FieldInfo, 8> table{{
-      {Field::k, "K", "1/mm²", "Gaussian curvature (eq. 2)", false, true, false},
-      {Field::h, "H", "1/mm", "Mean curvature (eq. 6); positive where convex", false, true, false},
-      {Field::kabs, "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder",
-       false, false, false},
-      {Field::ih, "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", false, true,
-       false},
-      {Field::ik, "IK", "", "Invariant of the Gaussian curvature (eq. 13)", false, true, false},
-      {Field::ikabs, "IKabs", "", "Invariant of the absolute curvature (eq. 14)", false, false,
-       false},
-      {Field::ihe, "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", true,
-       true, false},
-      {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", false,
+const std::array<FieldInfo, 10>& field_table() {
+  constexpr Element vertex = Element::vertex, edge = Element::edge, face = Element::face;
+  static constexpr std::array<FieldInfo, 10> table{{
+      {Field::k, "K", "1/mm²", "Gaussian curvature (eq. 2)", vertex, true},
+      {Field::h, "H", "1/mm", "Mean curvature (eq. 6); positive where convex", vertex, true},
+      {Field::kabs, "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder"},
+      {Field::ih, "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", vertex, true},
+      {Field::ik, "IK", "", "Invariant of the Gaussian curvature (eq. 13)", vertex, true},
+      {Field::ikabs, "IKabs", "", "Invariant of the absolute curvature (eq. 14)"},
+      {Field::ihe, "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", edge,
+       true},
+      {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", vertex,
        false, true},
+      {Field::deviation, "Deviation", "% of zone",
+       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face,
+       false, false, false},
+      {Field::face_quality, "Face quality", "",
+       "Twice the inscribed over the circumscribed radius: 1 for equilateral faces, 0 for slivers",
+       face, false, false, false},
   }};
   return table;
 }
@@ -73,6 +77,9 @@ std::vector<double> field_values(const Curvatures& c, Field field) {
     }
     case Field::shape:
       break;
+    case Field::deviation:
+    case Field::face_quality:
+      return {};
   }
   std::vector<double> classes(c.shape.size());
   std::transform(c.shape.begin(), c.shape.end(), classes.begin(), [](Shape s) {
@@ -83,22 +90,24 @@ std::vector<double> field_values(const Curvatures& c, Field field) {
 }
 
 std::vector<double> field_weights(const Mesh& mesh, Field field) {
-  std::vector<double> third(mesh.face_count());
+  std::vector<double> areas(mesh.face_count());
   parallel_for(mesh.face_count(), [&](std::size_t f) {
     const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
-    third[f] =
+    areas[f] =
         (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm() /
-        6.0;
+        2.0;
   });
-  const bool on_edges = info_of(field).on_edges;
+  const Element element = info_of(field).element;
+  if (element == Element::face) return areas;
+  const bool on_edges = element == Element::edge;
   std::vector<double> weights(on_edges ? mesh.edge_count() : mesh.vertex_count(), 0.0);
   parallel_for(weights.size(), [&](std::size_t i) {
     if (on_edges) {
       for (const FaceId f : mesh.edge_faces(static_cast<EdgeId>(i)))
-        if (f != no_id) weights[i] += third[f];
+        if (f != no_id) weights[i] += areas[f] / 3.0;
     } else {
       mesh.for_ring(static_cast<VertexId>(i), [&](HalfEdgeId h) {
-        if (mesh.face(h) != no_id) weights[i] += third[mesh.face(h)];
+        if (mesh.face(h) != no_id) weights[i] += areas[mesh.face(h)] / 3.0;
       });
     }
   });

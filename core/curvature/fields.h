@@ -11,21 +11,25 @@
 
 namespace arris {
 
-/// The fields that can be shown, exported and read under the pointer.
-enum class Field { k, h, kabs, ih, ik, ikabs, ihe, shape };
+/// The fields that can be shown and read under the pointer.
+enum class Field { k, h, kabs, ih, ik, ikabs, ihe, shape, deviation, face_quality };
+
+/// What a field has one value for.
+enum class Element { vertex, edge, face };
 
 struct FieldInfo {
   Field field;
   std::string_view name;     ///< As in files and on the command line: "Kabs".
   std::string_view unit;     ///< "1/mm²", "°", or empty.
   std::string_view meaning;  ///< One sentence.
-  bool on_edges = false;
+  Element element = Element::vertex;
   bool is_signed = false;
-  bool is_class = false;  ///< Values are class numbers (Shape).
+  bool is_class = false;     ///< Values are class numbers (Shape).
+  bool is_curvature = true;  ///< Told by Curvatures alone; the others need the document.
 };
 
 /// All fields in the order of the enumeration.
-const std::array<FieldInfo, 8>& field_table();
+const std::array<FieldInfo, 10>& field_table();
 const FieldInfo& info_of(Field field);
 /// By name, upper or lower case.
 std::optional<Field> find_field(std::string_view name);
@@ -33,12 +37,12 @@ std::optional<Field> find_field(std::string_view name);
 /// Names of the classes of the field Shape: class k is Shape k + 1 (undefined is NaN there).
 const std::array<std::string_view, 6>& shape_names();
 
-/// The values of a field: per vertex, or per edge where on_edges. IHe is given in degrees; shapes
-/// as class numbers, NaN where undefined. IH and IK are those of the chosen pairing.
+/// The values of a field of curvature, one per element. IHe is given in degrees; shapes as class
+/// numbers, NaN where undefined. IH and IK are those of the chosen pairing. Empty for other fields.
 std::vector<double> field_values(const Curvatures& curvatures, Field field);
 
-/// What an element of the field stands for in area, mm^2: a third of the faces around a vertex, or
-/// of the two faces of an edge.
+/// What an element of the field stands for in area, mm^2: a third of the faces around a vertex or
+/// of the two faces of an edge, or the face.
 std::vector<double> field_weights(const Mesh& mesh, Field field);
 
 }  // namespace arris

@@ -368,7 +368,7 @@ TEST_F(MeshViewTest, EdgeFieldColoursEdges) {
   view_.look_from(MeshView::StandardView::top);
   ViewField field;
   field.title = "|IHe|";
-  field.on_edges = true;
+  field.element = Element::edge;
   field.values = std::make_shared<std::vector<double>>(mesh->edge_count(), 1.0);
   view_.set_field(field);
   view_.set_scalar_bar_visible(false);

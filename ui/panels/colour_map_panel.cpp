@@ -16,6 +16,7 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 
 #include "ui/panels/controls.h"
@@ -86,8 +87,7 @@ class ColourMapPanel::Private {
   void show() {
     showing = true;
     field->setCurrentIndex(state.field);
-    field->setToolTip(
-        field_tooltips.value(state.field, QObject::tr("Which curvature colours the part.")));
+    field->setToolTip(field_tooltips.value(state.field, QObject::tr("What colours the part.")));
     map->setCurrentIndex(static_cast<int>(state.scale.map));
     const bool percentile = state.range == ColourMapState::Range::percentile;
     by_percentile->setChecked(percentile);
@@ -206,16 +206,16 @@ void ColourMapPanel::Private::build() {
   };
 
   field = new QuietCombo(q);
-  add(tr("&Field"), field, tr("Which curvature colours the part."));
+  add(tr("Fiel&d"), field, tr("What colours the part."));
   map = new QuietCombo(q);
   map->addItems(colour_map_names());
   map->setIconSize(strip_size);
   add(tr("&Map"), map, tr("The colours from low to high."));
 
   // The two ways to a range stand under each other, their ends in two columns.
-  by_percentile = new QRadioButton(tr("&Percentiles"), q);
+  by_percentile = new QRadioButton(tr("Per&centiles"), q);
   by_percentile->setToolTip(tr("The range leaves out these shares of the area at both ends."));
-  by_typing = new QRadioButton(tr("&Values"), q);
+  by_typing = new QRadioButton(tr("V&alues"), q);
   by_typing->setToolTip(tr("The range goes from and to these values of the field."));
   low = new NumberBox(q);
   high = new NumberBox(q);
@@ -352,6 +352,14 @@ void ColourMapPanel::set_fields(const QStringList& names, const QStringList& too
     p_->field->setItemData(i, tooltips.value(i), Qt::ToolTipRole);
   }
   p_->show();
+}
+
+void ColourMapPanel::set_field_available(int field, bool available, const QString& reason) {
+  auto* items = qobject_cast<QStandardItemModel*>(p_->field->model());
+  QStandardItem* item = items ? items->item(field) : nullptr;
+  if (!item) return;
+  item->setEnabled(available);
+  item->setToolTip(available ? p_->field_tooltips.value(field) : reason);
 }
 
 void ColourMapPanel::set_state(const ColourMapState& state) {

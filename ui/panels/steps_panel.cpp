@@ -516,6 +516,9 @@ void CardFrame::build_controls(QVBoxLayout* column) {
   run_->setAutoDefault(false);
   run_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   run_->setAccessibleName(QObject::tr("Run %1").arg(card_.title));
+  // A click would make it the focus, and running disables it: the next editor would then take the
+  // keys that are meant for the view.
+  run_->setFocusPolicy(Qt::TabFocus);
   foot->addWidget(state_, 1, Qt::AlignVCenter);
   foot->addWidget(run_);
   run_->setVisible(card_.runnable);
@@ -673,6 +676,7 @@ class StepsPanel::Private {
 StepsPanel::StepsPanel(QWidget* parent) : QWidget(parent), p_(std::make_unique<Private>()) {
   p_->q = this;
   p_->run_late = new QPushButton(tr("Run all out of date"), this);
+  p_->run_late->setFocusPolicy(Qt::TabFocus);
   p_->run_late->setToolTip(
       tr("Runs again, from top to bottom, each step that is out of date because an earlier one "
          "changed."));

@@ -92,9 +92,8 @@ void GlCanvas::start(QOpenGLContext* context) {
 void GlCanvas::release() {
   if (!started()) return;
   release_kept();
-  if (overlay_texture_ != 0) gl_->glDeleteTextures(1, &overlay_texture_);
-  overlay_texture_ = 0;
-  overlay_key_ = 0;
+  for (const Texture& texture : textures_) gl_->glDeleteTextures(1, &texture.name);
+  textures_.clear();
   if (blitter_) blitter_->destroy();
   blitter_.reset();
   window_->Finalize();
@@ -192,7 +191,7 @@ void GlCanvas::release_kept() {
   kept_buffer_ = 0;
 }
 
-void GlCanvas::show(const QImage& overlay, unsigned int frame_buffer) {
+void GlCanvas::show(const std::vector<Layer>& layers, unsigned int frame_buffer) {
   gl_->glDisable(GL_SCISSOR_TEST);
   gl_->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_->glBindFramebuffer(GL_READ_FRAMEBUFFER, window_->GetDisplayFramebuffer()->GetFBOIndex());
@@ -206,34 +205,40 @@ void GlCanvas::show(const QImage& overlay, unsigned int frame_buffer) {
   gl_->glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   gl_->glClear(GL_COLOR_BUFFER_BIT);
   gl_->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
-  lay_over(overlay);
+  lay_over(layers);
   gl_->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void GlCanvas::lay_over(const QImage& overlay) {
-  if (!blitter_ || overlay.isNull()) return;
-  if (overlay_texture_ == 0) {
-    gl_->glGenTextures(1, &overlay_texture_);
-    overlay_key_ = 0;
-  }
+void GlCanvas::lay_over(const std::vector<Layer>& layers) {
+  if (!blitter_) return;
   gl_->glActiveTexture(GL_TEXTURE0);
-  gl_->glBindTexture(GL_TEXTURE_2D, overlay_texture_);
-  if (overlay_key_ != overlay.cacheKey()) {
-    overlay_key_ = overlay.cacheKey();
-    gl_->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_->glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl_->glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, overlay.width(), overlay.height(), 0, GL_RGBA,
-                      GL_UNSIGNED_BYTE, overlay.constBits());
-  }
   gl_->glDisable(GL_DEPTH_TEST);
   gl_->glDisable(GL_CULL_FACE);
   gl_->glEnable(GL_BLEND);
   gl_->glBlendEquation(GL_FUNC_ADD);
   gl_->glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // premultiplied
-  blitter_->bind();
-  blitter_->blit(overlay_texture_, QMatrix4x4(), QOpenGLTextureBlitter::OriginTopLeft);
-  blitter_->release();
+  textures_.resize(std::max(textures_.size(), layers.size()));
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const QImage& image = layers[k].image;
+    Texture& texture = textures_[k];
+    if (image.isNull()) continue;
+    if (texture.name == 0) gl_->glGenTextures(1, &texture.name);
+    gl_->glBindTexture(GL_TEXTURE_2D, texture.name);
+    if (texture.key != image.cacheKey()) {
+      texture.key = image.cacheKey();
+      gl_->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      gl_->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+      gl_->glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+      gl_->glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width(), image.height(), 0, GL_RGBA,
+                        GL_UNSIGNED_BYTE, image.constBits());
+    }
+    blitter_->bind();
+    blitter_->blit(texture.name,
+                   QOpenGLTextureBlitter::targetTransform(QRectF(layers[k].at, image.size()),
+                                                          QRect(QPoint(), size_)),
+                   QOpenGLTextureBlitter::OriginTopLeft);
+    blitter_->release();
+  }
   gl_->glBindTexture(GL_TEXTURE_2D, 0);
 }
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <QImage>
+#include <QPoint>
 #include <QSize>
 
 #include <vtkNew.h>
@@ -51,9 +53,14 @@ class GlCanvas {
   /// Milliseconds that the last frame with the whole surface took.
   double surface_time() const { return surface_time_; }
 
-  /// Copies what was drawn into a frame buffer of the same size, opaque, and lays `overlay` over
-  /// it.
-  void show(const QImage& overlay, unsigned int frame_buffer);
+  /// A picture to lay over the part, premultiplied; `at`: of its top left corner, device pixels.
+  struct Layer {
+    QImage image;
+    QPoint at;
+  };
+  /// Copies what was drawn into a frame buffer of the same size, opaque, and lays the layers over
+  /// it, one after the other.
+  void show(const std::vector<Layer>& layers, unsigned int frame_buffer);
   /// What was drawn, premultiplied; null if GL failed.
   QImage read();
   /// Whether the driver has buffers that large.
@@ -64,15 +71,18 @@ class GlCanvas {
   void render(bool surface, bool lines);
   bool keep_surface(bool restore);
   void release_kept();
-  void lay_over(const QImage& overlay);
+  void lay_over(const std::vector<Layer>& layers);
 
   Scene& scene_;
   QOpenGLContext* context_ = nullptr;
   QOpenGLExtraFunctions* gl_ = nullptr;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   std::unique_ptr<QOpenGLTextureBlitter> blitter_;
-  unsigned int overlay_texture_ = 0;
-  qint64 overlay_key_ = 0;
+  struct Texture {
+    unsigned int name = 0;
+    qint64 key = 0;  // of the image in it
+  };
+  std::vector<Texture> textures_;  // of the layers
   double surface_time_ = 0.0;
   bool software_ = false;
   QSize size_;

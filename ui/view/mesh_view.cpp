@@ -1,28 +1,21 @@
 #include "ui/view/mesh_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <future>
-#include <new>
-#include <utility>
+#include <numbers>
 
-#include <QMouseEvent>
+#include <Eigen/Geometry>
+#include <QCoreApplication>
 #include <QOpenGLContext>
 #include <QPainter>
-#include <QThreadPool>
-#include <QTimer>
 
-#include "ui/view/gl_canvas.h"
-#include "ui/view/overlay.h"
-#include "ui/view/picker.h"
-#include "ui/view/scene.h"
+#include "core/base/number_text.h"
+#include "core/mesh/measurement.h"
+#include "ui/view/mesh_view_impl.h"
 
 namespace arris::ui {
 namespace {
 
-constexpr int drag_threshold = 3;  // logical pixels before a press becomes a drag
-constexpr double radians_per_pixel = 0.0075;
 constexpr int hover_interval = 33;     // ms
 constexpr int rest_interval = 180;     // ms without movement until the full mesh is drawn again
 constexpr double slow_surface = 80.0;  // ms; with lines and the rest about 100 for a frame
@@ -30,32 +23,34 @@ constexpr std::size_t stand_in_faces = 60'000;
 constexpr std::size_t most_smooth_faces = 150'000;  // where the processor draws: three times slower
 constexpr double fit_share = 0.86;                  // of the view that the part fills
 
-template <class Value>
-using Later = std::shared_future<std::shared_ptr<const Value>>;
-
-/// Makes a value on another thread; null if memory runs out.
-template <class Value, class Make>
-Later<Value> in_background(QThreadPool& workers, Make make) {
-  const auto promise = std::make_shared<std::promise<std::shared_ptr<const Value>>>();
-  Later<Value> later = promise->get_future().share();
-  workers.start([promise, make = std::move(make)] {
-    try {
-      promise->set_value(std::make_shared<const Value>(make()));
-    } catch (const std::bad_alloc&) {
-      promise->set_value(nullptr);
-    }
-  });
-  return later;
+/// A stand-in where a mesh is large enough to need one.
+Later<CoarseMesh> coarse_later(QThreadPool& workers, const MeshPtr& mesh) {
+  if (mesh->face_count() <= 2 * stand_in_faces) return {};
+  return in_background<CoarseMesh>(workers, [mesh] { return make_coarse(*mesh, stand_in_faces); });
 }
 
-template <class Value>
-std::shared_ptr<const Value> if_ready(const Later<Value>& later) {
-  using namespace std::chrono_literals;
-  return later.valid() && later.wait_for(0s) == std::future_status::ready ? later.get() : nullptr;
+/// Direction a face looks in, over it and the faces about its corners: steady on noise.
+Point mean_normal_about(const Mesh& mesh, FaceId face) {
+  Point sum = Point::Zero();
+  for (const VertexId v : mesh.triangle(face)) {
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      if (mesh.face(h) == no_id) return;
+      const Triangle& t = mesh.triangle(mesh.face(h));
+      const Point& a = mesh.point(t[0]);
+      sum += (mesh.point(t[1]) - a).cross(mesh.point(t[2]) - a);
+    });
+  }
+  return sum.norm() > 0.0 ? Point(sum.normalized()) : Point(Point::UnitZ());
 }
 
 bool is_light(const QColor& colour) {
   return 0.299 * colour.red() + 0.587 * colour.green() + 0.114 * colour.blue() > 110.0;
+}
+
+/// Micrometres on a part of 100 mm; more digits on smaller ones.
+QString length_text(const Mesh& mesh, double length) {
+  const double digits = std::ceil(-std::log10(std::max(mesh.diagonal(), 1e-9) * 1e-5));
+  return QString::fromStdString(fixed_text(length, std::clamp(static_cast<int>(digits), 1, 9)));
 }
 
 bool has_undefined(const ViewField& field) {
@@ -65,79 +60,112 @@ bool has_undefined(const ViewField& field) {
 
 }  // namespace
 
-struct MeshView::Impl {
-  enum class Drag { none, orbit, pan, zoom };
+QStringList measured_lines(const Mesh& mesh, const Pick& from, const Pick& to) {
+  const Measurement found = measure(mesh, {from.point, from.face}, {to.point, to.face});
+  const auto length = [&](double value) { return length_text(mesh, value); };
+  const Point& d = found.difference;
+  QStringList lines{
+      length(found.distance) + " mm",
+      QString("dx %1   dy %2   dz %3").arg(length(d.x()), length(d.y()), length(d.z()))};
+  if (found.angle)
+    lines << QCoreApplication::translate("arris::ui::MeshView", "angle between faces %1°")
+                 .arg(QString::fromStdString(fixed_text(*found.angle, 1)));
+  return lines;
+}
 
-  MeshPtr mesh;
-  std::vector<ViewLine> lines;
-  std::unordered_set<std::uint32_t> selected_lines;
-  std::optional<ViewField> field;
-  bool field_has_undefined = false;
-  std::set<LineType> line_types;
-  bool lines_visible = true;
-  bool scalar_bar_visible = true;
-  bool dark = false;
+void MeshView::Impl::show_ground() {
+  if (dark) {
+    scene.set_ground(QColor(33, 36, 41), QColor(66, 71, 80));
+  } else {
+    scene.set_ground(QColor(208, 216, 226), QColor(249, 250, 252));
+  }
+}
 
-  ViewCamera camera;
-  Scene scene;
-  GlCanvas canvas{scene};
-  QMetaObject::Connection context_end;
-  Later<RayTree> tree;
-  Later<CoarseMesh> coarse;
-  bool coarse_given = false;  // to the scene
-  QThreadPool workers;        // of its own: a click must not wait for other work of the program
+Overlay MeshView::Impl::overlay(const ViewCamera& seen, double units) const {
+  Overlay result;
+  result.dark = dark;
+  if (field_shown() && scalar_bar_visible) {
+    result.field = field;
+    result.field_has_undefined = field_has_undefined;
+  }
+  if (lines_visible) result.line_types = line_types;
+  result.scale_bar = mesh != nullptr;
+  result.orientation_marker = mesh != nullptr;
+  result.units_per_pixel = units;
+  result.axes = seen.axes();
+  return result;
+}
 
-  Drag drag = Drag::none;
-  bool dragged = false;
-  Qt::MouseButton button = Qt::NoButton;
-  QPoint pressed_at, last_at, hover_at;
-  Point pivot = Point::Zero();
-  bool moving = false;
-  QTimer hover_timer, rest_timer;
-
-  QImage overlay_image;
-  Overlay overlay_shown;
-  QSize overlay_pixels;
-
-  void show_ground() {
-    if (dark) {
-      scene.set_ground(QColor(33, 36, 41), QColor(66, 71, 80));
-    } else {
-      scene.set_ground(QColor(208, 216, 226), QColor(249, 250, 252));
+ToolOverlay MeshView::Impl::tools(const ViewCamera& seen, QSizeF size) const {
+  ToolOverlay result;
+  result.dark = dark;
+  const auto at = [&](const Point& point) {
+    const Eigen::Vector3d place = seen.project(point, size);
+    return QPointF(place.x(), place.y());
+  };
+  if (field_shown() && field->mark) {
+    // The point may lie a little under the surface, as a vertex of the scan does.
+    const Point raised =
+        field->mark->point + seen.towards_viewer() * (0.5 * mesh->mean_edge_length());
+    const auto with = if_ready(tree);
+    const bool seen_there =
+        !with || is_seen({*with, seen, size, hidden.empty() ? nullptr : &hidden, section}, raised);
+    result.mark = ToolOverlay::Mark{at(field->mark->point), field->mark->text, !seen_there};
+  }
+  for (const Point& point : picked_points) result.points.push_back(at(point));
+  for (const Pick& end : measured) result.measured.push_back(at(end.point));
+  if (measured.size() == 1 && measuring) result.measured.push_back(at(measuring->point));
+  if (result.measured.size() == 2)
+    result.measured_text =
+        measured_lines(*mesh, measured[0], measured.size() == 2 ? measured[1] : *measuring);
+  if (brush_at && tool == Tool::brush && drag != Drag::orbit) {
+    const Point normal = mean_normal_about(*mesh, brush_at->face);
+    const Point right = normal.unitOrthogonal();
+    const Point up = normal.cross(right);
+    constexpr int corners = 48;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / corners;
+      result.ring << at(brush_at->point +
+                        brush_radius * (std::cos(angle) * right + std::sin(angle) * up));
     }
   }
+  if (drag == Drag::band && dragged) result.band = QRectF(pressed_at, last_at).normalized();
+  return result;
+}
 
-  double least_height() const { return mesh ? std::max(mesh->diagonal() * 1e-5, 1e-30) : 1e-30; }
-  double most_height() const { return mesh ? std::max(mesh->diagonal() * 50.0, 1e-30) : 1e30; }
+bool MeshView::Impl::field_shown() const {
+  return mesh && field && !scene.labels_shown() && scene.shown() != ShownSurface::reference &&
+         fits(*field, *mesh);
+}
 
-  /// What is written over a picture whose pixels, those of its text, are `units` wide.
-  Overlay overlay(const ViewCamera& seen, double units) const {
-    Overlay result;
-    result.dark = dark;
-    const bool shown =
-        field && field->values && mesh && !scene.labels_shown() &&
-        field->values->size() == (field->on_edges ? mesh->edge_count() : mesh->vertex_count());
-    if (shown && scalar_bar_visible) {
-      result.field = field;
-      result.field_has_undefined = field_has_undefined;
+void MeshView::Impl::show_lines() {
+  shown_lines.clear();
+  line_types.clear();
+  for (const ViewLine& line : lines) {
+    line_types.insert(line.type);
+    if (hidden.empty()) {
+      shown_lines.push_back(line);
+      continue;
     }
-    if (lines_visible) result.line_types = line_types;
-    result.scale_bar = mesh != nullptr;
-    result.orientation_marker = mesh != nullptr;
-    result.units_per_pixel = units;
-    result.axes = seen.axes();
-    return result;
+    ViewLine run{line.id, line.type, {line.vertices.front()}};
+    const auto end_run = [&](VertexId next) {
+      if (run.vertices.size() > 1) shown_lines.push_back(run);
+      run.vertices = {next};
+    };
+    for (std::size_t k = 1; k < line.vertices.size(); ++k) {
+      const auto edge = mesh->find_edge(line.vertices[k - 1], line.vertices[k]);
+      if (edge && !shows(mesh->edge_faces(*edge), hidden))
+        end_run(line.vertices[k]);
+      else
+        run.vertices.push_back(line.vertices[k]);
+    }
+    end_run(no_id);
   }
-
-  std::optional<Pick> pick(const RayTree& with, QSizeF size, const QPoint& position) const {
-    static const std::vector<ViewLine> none;
-    return pick_at(with, camera, size, position, lines_visible ? lines : none);
-  }
-};
+  scene.set_lines(shown_lines);
+  scene.set_selected_lines(shown_lines, selected_lines);
+}
 
 namespace {
-
-QSizeF logical_size(const QWidget& view) { return QSizeF(view.size().expandedTo({1, 1})); }
 
 /// The one size in device pixels; QOpenGLWidget rounds its frame buffer the same way.
 QSize device_size(const QWidget& view) {
@@ -151,6 +179,22 @@ QImage draw_overlay(const Overlay& overlay, QSize pixels, double scale) {
   QPainter painter(&image);
   painter.scale(scale, scale);
   paint_overlay(painter, QSizeF(pixels) / scale, overlay);
+  return image;
+}
+
+/// Only the part of the view in which anything is drawn; `at`: its top left corner, device pixels.
+QImage draw_tools(const ToolOverlay& tools, QSizeF size, double scale, QPoint& at) {
+  const QRectF bounds = bounds_of(tools, size);
+  if (bounds.isEmpty()) return {};
+  at = QPoint(static_cast<int>(bounds.left() * scale), static_cast<int>(bounds.top() * scale));
+  const QSize pixels(static_cast<int>(std::ceil(bounds.right() * scale)) - at.x(),
+                     static_cast<int>(std::ceil(bounds.bottom() * scale)) - at.y());
+  QImage image(pixels, QImage::Format_RGBA8888_Premultiplied);
+  image.fill(Qt::transparent);
+  QPainter painter(&image);
+  painter.translate(-at);
+  painter.scale(scale, scale);
+  paint_tools(painter, size, tools);
   return image;
 }
 
@@ -169,11 +213,7 @@ MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), impl_(std::make_uni
   impl_->show_ground();
   impl_->hover_timer.setSingleShot(true);
   impl_->hover_timer.setInterval(hover_interval);
-  connect(&impl_->hover_timer, &QTimer::timeout, this, [this] {
-    const auto tree = if_ready(impl_->tree);
-    if (!tree || impl_->drag != Impl::Drag::none) return;
-    emit hovered(impl_->pick(*tree, logical_size(*this), impl_->hover_at));
-  });
+  connect(&impl_->hover_timer, &QTimer::timeout, this, &MeshView::hover);
   impl_->rest_timer.setSingleShot(true);
   impl_->rest_timer.setInterval(rest_interval);
   connect(&impl_->rest_timer, &QTimer::timeout, this, [this] {
@@ -192,25 +232,88 @@ MeshView::~MeshView() {
 }
 
 void MeshView::set_mesh(MeshPtr mesh, bool fit) {
+  cancel_drag();
+  // A part of another size gets another brush.
+  constexpr double brush_share = 0.02;  // of the diagonal
+  if (mesh && !(impl_->mesh && impl_->mesh->diagonal() < 2.0 * mesh->diagonal() &&
+                mesh->diagonal() < 2.0 * impl_->mesh->diagonal()))
+    impl_->brush_radius = brush_share * mesh->diagonal();
   impl_->mesh = std::move(mesh);
+  impl_->reference.reset();
   impl_->lines.clear();
+  impl_->shown_lines.clear();
   impl_->line_types.clear();
   impl_->selected_lines.clear();
+  impl_->hidden.clear();
   impl_->field.reset();
+  impl_->brush_at.reset();
+  impl_->picked_points.clear();
   impl_->workers.clear();
   impl_->tree = {};
   impl_->coarse = {};
+  impl_->reference_coarse = {};
   impl_->coarse_given = false;
   impl_->scene.set_mesh(impl_->mesh);
+  clear_measurement();
   if (impl_->mesh) {
     impl_->tree =
         in_background<RayTree>(impl_->workers, [shared = impl_->mesh] { return RayTree(shared); });
-    if (impl_->mesh->face_count() > 2 * stand_in_faces) {
-      impl_->coarse = in_background<CoarseMesh>(
-          impl_->workers, [shared = impl_->mesh] { return make_coarse(*shared, stand_in_faces); });
-    }
+    impl_->coarse = coarse_later(impl_->workers, impl_->mesh);
   }
   if (fit) this->fit();
+  update();
+}
+
+void MeshView::set_reference(MeshPtr reference, double gap) {
+  impl_->reference = std::move(reference);
+  impl_->scene.set_reference(impl_->reference, gap);
+  impl_->reference_coarse = {};
+  impl_->reference_coarse_given = false;
+  if (impl_->reference && surface() != ShownSurface::mesh)
+    impl_->reference_coarse = coarse_later(impl_->workers, impl_->reference);
+  update();
+}
+
+void MeshView::set_surface(ShownSurface surface) {
+  impl_->scene.set_shown(surface);
+  if (impl_->reference && surface != ShownSurface::mesh && !impl_->reference_coarse.valid())
+    impl_->reference_coarse = coarse_later(impl_->workers, impl_->reference);
+  update();
+}
+
+ShownSurface MeshView::surface() const { return impl_->scene.shown(); }
+
+void MeshView::set_hidden_faces(std::vector<bool> hidden) {
+  const bool any = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
+  if (!any || !impl_->mesh || hidden.size() != impl_->mesh->face_count()) hidden.clear();
+  if (hidden == impl_->hidden) return;
+  impl_->hidden = hidden;
+  impl_->scene.set_hidden_faces(std::move(hidden));
+  impl_->show_lines();
+  update();
+}
+
+void MeshView::set_section(const std::optional<Section>& section) {
+  if (section == impl_->section) return;
+  impl_->section = section;
+  impl_->scene.set_section(section);
+  moved();  // a slow surface follows as its stand-in
+}
+
+const std::optional<Section>& MeshView::section() const { return impl_->section; }
+
+void MeshView::set_ghost_paths(std::vector<std::vector<VertexId>> paths) {
+  const std::size_t count = impl_->mesh ? impl_->mesh->vertex_count() : 0;
+  std::erase_if(paths, [&](const std::vector<VertexId>& path) {
+    return path.size() < 2 ||
+           std::any_of(path.begin(), path.end(), [&](VertexId v) { return v >= count; });
+  });
+  impl_->scene.set_ghost_paths(paths);
+  update();
+}
+
+void MeshView::set_picked_points(std::vector<Point> points) {
+  impl_->picked_points = std::move(points);
   update();
 }
 
@@ -233,17 +336,14 @@ void MeshView::set_lines(std::vector<ViewLine> lines) {
                                                    [&](VertexId v) { return v >= count; });
   });
   impl_->lines = std::move(lines);
-  impl_->line_types.clear();
-  for (const ViewLine& line : impl_->lines) impl_->line_types.insert(line.type);
-  impl_->scene.set_lines(impl_->lines);
-  impl_->scene.set_selected_lines(impl_->lines, impl_->selected_lines);
+  impl_->show_lines();
   update();
 }
 
 void MeshView::set_selected_lines(const std::unordered_set<std::uint32_t>& ids) {
   if (ids == impl_->selected_lines) return;
   impl_->selected_lines = ids;
-  impl_->scene.set_selected_lines(impl_->lines, ids);
+  impl_->scene.set_selected_lines(impl_->shown_lines, ids);
   update();
 }
 
@@ -284,6 +384,8 @@ void MeshView::fit() {
   impl_->camera.frame(points, logical_size(*this), fit_share, impl_->least_height());
   update();
 }
+
+Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); }
 
 void MeshView::look_against(const Point& towards_viewer) {
   const Point direction = towards_viewer.normalized();
@@ -363,8 +465,15 @@ QImage MeshView::picture(const PictureOptions& options) {
   if (!options.scalar_bar) overlay.field.reset();
   overlay.scale_bar = overlay.scale_bar && options.scale_bar;
   overlay.orientation_marker = overlay.orientation_marker && options.orientation_marker;
+  const QSizeF picture_size = QSizeF(options.size) / scale;
+  ToolOverlay tools = impl_->tools(frame.camera, picture_size);
+  tools.dark = overlay.dark;
+  tools.ring.clear();
+  tools.band.reset();
   QPainter painter(&image);
   painter.drawImage(0, 0, draw_overlay(overlay, options.size, scale));
+  painter.scale(scale, scale);
+  paint_tools(painter, picture_size, tools);
   painter.end();
   return options.background.alpha() == 255
              ? image.convertToFormat(QImage::Format_RGB32)
@@ -397,136 +506,39 @@ void MeshView::paintGL() {
       impl_->coarse_given = true;
     }
   }
+  if (!impl_->reference_coarse_given) {
+    if (auto coarse = if_ready(impl_->reference_coarse)) {
+      impl_->scene.set_reference_coarse(std::move(coarse));
+      impl_->reference_coarse_given = true;
+    }
+  }
   const double ratio = devicePixelRatio();
   GlCanvas::Frame frame;
   frame.camera = impl_->camera;
   frame.pixels = device_size(*this);
   frame.pixel_ratio = ratio;
-  frame.smooth = !(impl_->canvas.is_software() && impl_->mesh &&
-                   impl_->mesh->face_count() > most_smooth_faces);
+  std::size_t faces = impl_->mesh ? impl_->mesh->face_count() : 0;
+  if (surface() != ShownSurface::mesh) faces = std::max(faces, impl_->reference->face_count());
+  frame.smooth = !(impl_->canvas.is_software() && faces > most_smooth_faces);
   frame.coarse = impl_->moving && impl_->canvas.surface_time() > slow_surface;
   impl_->canvas.draw(frame);
 
-  const Overlay overlay =
-      impl_->overlay(impl_->camera, impl_->camera.units_per_pixel(logical_size(*this)));
-  if (impl_->overlay_image.isNull() || impl_->overlay_pixels != frame.pixels ||
-      !(overlay == impl_->overlay_shown)) {
+  const QSizeF size = logical_size(*this);
+  Overlay overlay = impl_->overlay(impl_->camera, impl_->camera.units_per_pixel(size));
+  overlay.hint = impl_->hint_shown();
+  const ToolOverlay tools = impl_->tools(impl_->camera, size);
+  const bool resized = impl_->overlay_pixels != frame.pixels;
+  if (impl_->overlay_image.isNull() || resized || !(overlay == impl_->overlay_shown)) {
     impl_->overlay_image = draw_overlay(overlay, frame.pixels, ratio);
-    impl_->overlay_pixels = frame.pixels;
     impl_->overlay_shown = overlay;
   }
-  impl_->canvas.show(impl_->overlay_image, defaultFramebufferObject());
-}
-
-void MeshView::moved() {
-  impl_->moving = true;
-  impl_->rest_timer.start();
-  update();
-}
-
-void MeshView::mousePressEvent(QMouseEvent* event) {
-  if (impl_->drag != Impl::Drag::none) return;  // a second button while one is held
-  impl_->button = event->button();
-  impl_->pressed_at = impl_->last_at = event->position().toPoint();
-  impl_->dragged = false;
-  const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
-  switch (event->button()) {
-    case Qt::LeftButton:
-      impl_->drag = shift ? Impl::Drag::pan : Impl::Drag::orbit;
-      break;
-    case Qt::MiddleButton:
-      impl_->drag = Impl::Drag::pan;
-      break;
-    case Qt::RightButton:
-      impl_->drag = Impl::Drag::zoom;
-      break;
-    default:
-      event->ignore();
-      return;
+  if (resized || !(tools == impl_->tools_shown)) {
+    impl_->tools_image = draw_tools(tools, size, ratio, impl_->tools_at);
+    impl_->tools_shown = tools;
   }
-  impl_->pivot = impl_->mesh ? Point((impl_->mesh->box_min() + impl_->mesh->box_max()) / 2)
-                             : impl_->camera.focus();
-  if (const auto tree = if_ready(impl_->tree)) {
-    const auto point = surface_at(*tree, impl_->camera, logical_size(*this), impl_->pressed_at);
-    if (point) impl_->pivot = *point;
-  }
-}
-
-void MeshView::mouseMoveEvent(QMouseEvent* event) {
-  const QPoint at = event->position().toPoint();
-  if (impl_->drag == Impl::Drag::none) {
-    impl_->hover_at = at;
-    if (!impl_->hover_timer.isActive()) impl_->hover_timer.start();
-    return;
-  }
-  if (!impl_->dragged && (at - impl_->pressed_at).manhattanLength() <= drag_threshold) return;
-  impl_->dragged = true;
-  const QPoint by = at - impl_->last_at;
-  impl_->last_at = at;
-  const QSizeF size = logical_size(*this);
-  switch (impl_->drag) {
-    case Impl::Drag::orbit:
-      impl_->camera.orbit(impl_->pivot, -by.x() * radians_per_pixel, -by.y() * radians_per_pixel);
-      break;
-    case Impl::Drag::pan:
-      impl_->camera.pan(by, size);
-      break;
-    case Impl::Drag::zoom:
-      impl_->camera.zoom(std::exp(-by.y() * 0.01), impl_->pressed_at, size, impl_->least_height(),
-                         impl_->most_height());
-      break;
-    case Impl::Drag::none:
-      break;
-  }
-  moved();
-}
-
-void MeshView::mouseReleaseEvent(QMouseEvent* event) {
-  if (impl_->drag == Impl::Drag::none || event->button() != impl_->button) return;
-  impl_->drag = Impl::Drag::none;
-  if (impl_->dragged) return;
-  const std::optional<Pick> found = pick(impl_->pressed_at);
-  if (event->button() == Qt::LeftButton) {
-    emit clicked(found, event->modifiers().testFlag(Qt::ControlModifier));
-  } else if (event->button() == Qt::RightButton) {
-    emit context_menu_wanted(event->globalPosition().toPoint(), found);
-  }
-}
-
-void MeshView::wheelEvent(QWheelEvent* event) {
-  const double steps = event->angleDelta().y() / 120.0;
-  impl_->camera.zoom(std::pow(1.18, steps), event->position(), logical_size(*this),
-                     impl_->least_height(), impl_->most_height());
-  moved();
-  event->accept();
-}
-
-void MeshView::leaveEvent(QEvent* event) {
-  impl_->hover_timer.stop();
-  emit hovered(std::nullopt);
-  QOpenGLWidget::leaveEvent(event);
-}
-
-void MeshView::keyPressEvent(QKeyEvent* event) {
-  constexpr std::array<std::pair<int, StandardView>, 7> views{
-      {{Qt::Key_1, StandardView::front},
-       {Qt::Key_2, StandardView::back},
-       {Qt::Key_3, StandardView::left},
-       {Qt::Key_4, StandardView::right},
-       {Qt::Key_5, StandardView::top},
-       {Qt::Key_6, StandardView::bottom},
-       {Qt::Key_0, StandardView::isometric}}};
-  for (const auto& [key, view] : views) {
-    if (event->key() == key) {
-      look_from(view);
-      return;
-    }
-  }
-  if (event->key() == Qt::Key_F) {
-    fit();
-    return;
-  }
-  QOpenGLWidget::keyPressEvent(event);
+  impl_->overlay_pixels = frame.pixels;
+  impl_->canvas.show({{impl_->overlay_image, {}}, {impl_->tools_image, impl_->tools_at}},
+                     defaultFramebufferObject());
 }
 
 }  // namespace arris::ui

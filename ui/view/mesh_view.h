@@ -12,6 +12,7 @@
 #include <QOpenGLWidget>
 #include <QString>
 
+#include "core/curvature/fields.h"
 #include "core/mesh/mesh.h"
 #include "ui/view/colour_scale.h"
 
@@ -26,18 +27,48 @@ struct ViewLine {
   std::vector<VertexId> vertices;  ///< A closed line repeats its first vertex at the end.
 };
 
+/// A point marked by a small ring with a label.
+struct ViewMark {
+  Point point = Point::Zero();
+  QString text;
+  bool operator==(const ViewMark&) const = default;
+};
+
 /// The field that colours the surface.
 struct ViewField {
   QString title;                                      ///< With unit: "Kabs (1/mm²)".
-  std::shared_ptr<const std::vector<double>> values;  ///< Per vertex, or per edge; NaN: undefined.
-  bool on_edges = false;  ///< Draw coloured edges over a plain surface (figure 24b).
+  std::shared_ptr<const std::vector<double>> values;  ///< One per element; NaN: undefined.
+  /// Vertices and faces colour the surface; edges are drawn coloured over a plain one (figure 24b).
+  Element element = Element::vertex;
   ColourScale scale;
   bool read_as_radius = false;  ///< The scalar bar shows a radius in mm beside each value of Kabs.
   /// Where set, values are class numbers 0, 1, ...: `class_names[k]` in `class_colours[k]` as a
   /// legend.
   QStringList class_names;
   std::vector<QColor> class_colours;
+  std::optional<ViewMark> mark;  ///< What the field points out, as the place of its largest value.
   bool operator==(const ViewField&) const = default;
+};
+
+/// Which of two states of a part is drawn: the mesh, the reference it came from, plain, or the
+/// reference translucent over the mesh.
+enum class ShownSurface { mesh, reference, both };
+
+/// A plane to look into the part: what lies beyond it, where normal · p > offset, is cut away.
+struct Section {
+  Point normal = Point::UnitX();  ///< Unit vector.
+  double offset = 0.0;            ///< Mesh unit.
+  bool operator==(const Section&) const = default;
+};
+
+/// What the left mouse button does.
+enum class Tool {
+  select,      ///< Clicks select, drags orbit; with Shift, a rectangle over lines.
+  band,        ///< Drags draw the rectangle.
+  brush,       ///< Drags on the part paint.
+  path,        ///< Clicks on the part give the points of a path.
+  measure,     ///< Two clicks measure.
+  move_point,  ///< Drags on a line move it.
 };
 
 /// What lies under the pointer. Only what is visible is ever picked: the nearest front surface, and
@@ -61,6 +92,10 @@ struct PictureOptions {
 
 /// The part in the centre of the window: one QOpenGLWidget that drives VTK (shared/qt6-vtk.md). It
 /// holds no geometry of its own making and knows nothing of documents: it shows what it is given.
+///
+/// Whatever the tool: the middle button pans (with Shift: orbits), the right one and the wheel
+/// zoom, Ctrl + left pans. A tool whose drags mean something leaves those that begin beside the
+/// part, or beside a line, to orbiting.
 class MeshView : public QOpenGLWidget {
   Q_OBJECT
  public:
@@ -84,6 +119,35 @@ class MeshView : public QOpenGLWidget {
   /// Faces whose label is selected are drawn highlighted.
   void set_selected_labels(const std::unordered_set<std::uint32_t>& labels);
 
+  /// Another state of the same part, as the scan that the mesh was made from: at most `gap` (mesh
+  /// unit) away from it. Set after set_mesh(), which drops it; null: none. Field, labels, lines,
+  /// hidden faces and picks always belong to the mesh.
+  void set_reference(MeshPtr reference, double gap);
+  /// Stays set while there is no reference, and means the mesh until then.
+  void set_surface(ShownSurface surface);
+  ShownSurface surface() const;
+  /// Faces that are neither drawn nor picked, nor are lines between two of them: one value for each
+  /// face of the mesh, or empty for none. Gone with the mesh.
+  void set_hidden_faces(std::vector<bool> hidden);
+  /// Cuts the part open; what is cut away is not picked. Stays when the mesh changes.
+  void set_section(const std::optional<Section>& section);
+  const std::optional<Section>& section() const;
+  /// Paths drawn dashed over the surface in a colour of their own: previews and proposals. Those
+  /// with vertices that the mesh does not have are left out.
+  void set_ghost_paths(std::vector<std::vector<VertexId>> paths);
+  /// Points marked by small rings, as the picks of a path so far.
+  void set_picked_points(std::vector<Point> points);
+
+  /// Another tool; what the one before had begun is dropped. `hint` replaces the line at the bottom
+  /// that tells what the tool does. Esc goes back to Tool::select.
+  void set_tool(Tool tool, const QString& hint = {});
+  Tool tool() const;
+  /// In the mesh's unit, kept between a thousandth and a half of the part's diagonal. At first a
+  /// fiftieth of it.
+  void set_brush_radius(double radius);
+  double brush_radius() const;
+  void clear_measurement();
+
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);  ///< Mesh edges as a thin net.
   void set_scalar_bar_visible(bool visible);
@@ -94,6 +158,7 @@ class MeshView : public QOpenGLWidget {
   /// Looks against this direction, upright as far as it goes; fits the part.
   void look_against(const Point& towards_viewer);
   void look_from(StandardView view);  ///< z is up; fits the part.
+  Point towards_viewer() const;
   /// Moves the camera (keeps direction) so that these vertices fill most of the view.
   void zoom_to(const std::vector<VertexId>& vertices);
 
@@ -109,9 +174,30 @@ class MeshView : public QOpenGLWidget {
  signals:
   /// At most about 30 times a second, and never while a button is held.
   void hovered(const std::optional<arris::ui::Pick>& pick);
-  /// A click without dragging; `toggle` with Ctrl held. nullopt: the ground.
+  /// A click without dragging (select and band); `toggle` with Ctrl held. nullopt: the ground.
   void clicked(const std::optional<arris::ui::Pick>& pick, bool toggle);
   void context_menu_wanted(const QPoint& global, const std::optional<arris::ui::Pick>& pick);
+
+  void tool_changed(arris::ui::Tool tool);
+  /// The user went back to Tool::select by Esc (after tool_changed()).
+  void tool_left();
+  /// Lines of whose visible length at least half lies in the rectangle; `toggle` with Ctrl held.
+  void banded(const std::vector<std::uint32_t>& line_ids, bool toggle);
+  /// The brush was let go: the vertices picked along its way, about half a radius apart, each once.
+  void brushed(const std::vector<arris::VertexId>& stroke, double radius);
+  void brush_radius_changed(double radius);
+  /// Tool::path. Each pick has a face.
+  void path_point(const arris::ui::Pick& pick);
+  void path_hover(const arris::ui::Pick& pick);  ///< At most about 30 times a second.
+  void path_done();                              ///< Double click or Enter.
+  void path_back();                              ///< Backspace.
+  /// Tool::move_point: the vertex of the line nearest to the pointer; then each other vertex that
+  /// the pointer comes to; then the last one. Esc ends the drag at the vertex where it began.
+  void line_grabbed(std::uint32_t line, arris::VertexId vertex);
+  void line_dragged(arris::VertexId vertex);
+  void line_dropped(arris::VertexId vertex);
+  /// Distance, its parts along the axes and the angle between the faces, for the clipboard.
+  void measured(const QString& text);
 
  protected:
   void initializeGL() override;
@@ -120,12 +206,22 @@ class MeshView : public QOpenGLWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void moved();
+  void hover();
+  void press_left(const QPoint& at, Qt::KeyboardModifiers modifiers);
+  void drag_tool(const QPoint& at);
+  void drop_tool(const QPoint& at, Qt::KeyboardModifiers modifiers);
+  void click_tool(const std::optional<Pick>& pick, bool toggle);
+  void cancel_drag();
+  void paint_to(const QPoint& at);
+  void measure_to(const Pick& pick);
+  void show_cursor();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

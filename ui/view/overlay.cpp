@@ -289,6 +289,24 @@ QRectF paint_line_legend(QPainter& painter, const Look& look, QSizeF size, const
   return panel;
 }
 
+/// Between the orientation marker and the scale bar where it fits there, else above them.
+void paint_hint(QPainter& painter, const Look& look, QSizeF size, const QString& hint) {
+  constexpr double left = 116.0, right = 196.0;  // that marker and scale bar may take
+  const double line = QFontMetricsF(look.font).height();
+  const double most = size.width() - 2 * margin - 2 * padding;
+  const QString text = QFontMetricsF(look.font).elidedText(hint, Qt::ElideRight, most);
+  const double width = text_width(look.font, text) + 2 * padding;
+  const double height = line + 12.0;
+  const bool between = width <= size.width() - left - right;
+  const double middle = (size.width() - width) / 2;
+  const double x =
+      between ? std::clamp(middle, left, size.width() - right - width) : std::max(middle, margin);
+  const QRectF panel(x, size.height() - margin - height - (between ? 0.0 : 88.0), width, height);
+  if (panel.top() < margin) return;
+  paint_panel(painter, look, panel);
+  paint_text(painter, look.font, look.text, panel, Qt::AlignCenter, text);
+}
+
 void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
                      const QRectF& taken) {
   const double most = std::min(160.0, 0.3 * size.width());
@@ -445,6 +463,7 @@ void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
   if (overlay.scale_bar) {
     paint_scale_bar(painter, look, size, overlay, bar.adjusted(0.0, 0.0, 0.0, 6.0));
   }
+  if (!overlay.hint.isEmpty()) paint_hint(painter, look, size, overlay.hint);
 }
 
 }  // namespace arris::ui

@@ -88,8 +88,8 @@ void RayTree::split(std::uint32_t node, std::vector<Point>& centres) {
   nodes_[node].count = 0;
 }
 
-std::optional<RayTree::Hit> RayTree::first(const Point& origin, const Point& direction,
-                                           double most) const {
+std::optional<RayTree::Hit> RayTree::first(const Point& origin, const Point& direction, double most,
+                                           const std::vector<bool>* hidden) const {
   if (nodes_.empty()) return std::nullopt;
   const Point inverse = direction.cwiseInverse();
   std::optional<Hit> best;
@@ -119,6 +119,7 @@ std::optional<RayTree::Hit> RayTree::first(const Point& origin, const Point& dir
       continue;
     }
     for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
+      if (hidden && (*hidden)[faces_[i]]) continue;
       const Triangle& t = mesh_->triangle(faces_[i]);
       const Point& a = mesh_->point(t[0]);
       const Point ab = mesh_->point(t[1]) - a;

@@ -19,8 +19,10 @@ class RayTree {
     double distance = 0.0;  ///< From the origin, in lengths of the direction.
     bool front = false;     ///< The ray meets the outer side of the face.
   };
-  /// The nearest hit at a distance in [0, most]. A ray along a face's plane misses it.
-  std::optional<Hit> first(const Point& origin, const Point& direction, double most) const;
+  /// The nearest hit at a distance in [0, most]. A ray along a face's plane misses it. `hidden`:
+  /// one value per face, true for those that are not there; null: all are.
+  std::optional<Hit> first(const Point& origin, const Point& direction, double most,
+                           const std::vector<bool>* hidden = nullptr) const;
 
   const MeshPtr& mesh() const { return mesh_; }
 

@@ -43,6 +43,7 @@ flat out float len;        // pixels
 flat out vec2 arc;         // arc lengths of the first and the second end
 flat out vec4 shape;       // half width with the layer's, dash, period; pixel ratio
 flat out vec4 paint;
+out float beyond_section;
 // How steeply a side rises towards the viewer; -1 where the side faces away.
 float rise(vec3 side, vec3 normal)
 {
@@ -60,6 +61,7 @@ void main()
   vec3 end = side > 0.0 ? vertexMC.xyz : (4.0 * vertexMC.xyz - otherMC) / 3.0;
   vec4 here = MCDCMatrix * vec4(end, 1.0);
   vec4 there = MCDCMatrix * vec4(otherMC, 1.0);
+  beyond_section = dot(sectionPlane.xyz, end) - sectionPlane.w;
   vec2 half_size = 0.5 * viewportSize;
   vec2 along = (there.xy - here.xy) * half_size;
   if (second) along = -along;
@@ -95,8 +97,10 @@ flat in float len;
 flat in vec2 arc;
 flat in vec4 shape;
 flat in vec4 paint;
+in float beyond_section;
 void main()
 {
+  if (beyond_section > 0.0) discard;
   float beyond = max(max(-place.x, place.x - len), 0.0);
   if (shape.z > 0.0) {
     float share = len > 1e-4 ? clamp(place.x / len, 0.0, 1.0) : 0.0;
@@ -135,10 +139,8 @@ void uniform4(vtkUniforms* uniforms, const char* name, const QColor& colour) {
   uniforms->SetUniform4f(name, value.data());
 }
 
-/// VTK calls this right before it draws an actor, and sets the mask again for the next one. Only
-/// the surface hides lines; if they wrote depth, the round end of one segment would cut into the
-/// next where a line runs away from the viewer.
-void write_no_depth(vtkObject*, unsigned long, void* renderer, void*) {
+/// VTK calls this right before it draws an actor, and sets the mask again for the next one.
+void mask_depth(vtkObject*, unsigned long, void* renderer, void*) {
   auto* window =
       vtkOpenGLRenderWindow::SafeDownCast(static_cast<vtkRenderer*>(renderer)->GetRenderWindow());
   if (window != nullptr) window->GetState()->vtkglDepthMask(0);
@@ -193,6 +195,20 @@ void keep_coordinates(vtkPolyDataMapper* mapper) {
   }
 }
 
+void set_section_uniform(vtkUniforms* uniforms, const Eigen::Vector4d& section) {
+  const std::array<float, 4> value{static_cast<float>(section.x()), static_cast<float>(section.y()),
+                                   static_cast<float>(section.z()),
+                                   static_cast<float>(section.w())};
+  uniforms->SetUniform4f("sectionPlane", value.data());
+}
+
+void write_no_depth(vtkPolyDataMapper* mapper, vtkRenderer* renderer) {
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(mask_depth);
+  observer->SetClientData(renderer);
+  mapper->AddObserver(vtkCommand::UpdateShaderEvent, observer);
+}
+
 Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
                  const std::vector<StrokeLayer>& layers)
     : strokes_(std::move(strokes)), layers_(layers) {
@@ -208,10 +224,9 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
     for (const char* name : {"otherMC", "cornerMC", "leftMC", "rightMC"}) {
       mapper->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS);
     }
-    vtkNew<vtkCallbackCommand> observer;
-    observer->SetCallback(write_no_depth);
-    observer->SetClientData(renderer);
-    mapper->AddObserver(vtkCommand::UpdateShaderEvent, observer);
+    // Only the surface hides lines; if they wrote depth, the round end of one segment would cut
+    // into the next where a line runs away from the viewer.
+    write_no_depth(mapper, renderer);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     actor->ForceOpaqueOn();
@@ -335,6 +350,7 @@ void Ribbons::update(const RibbonFrame& frame) {
         "depthPerPixel",
         static_cast<float>(frame.depth_per_unit * frame.units_per_pixel / frame.pixel_ratio));
     uniforms->SetUniformf("extraLift", static_cast<float>(frame.depth_per_unit * frame.extra_lift));
+    set_section_uniform(uniforms, frame.section);
     actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
         "dashUnit", static_cast<float>(dash_unit));
   }

@@ -13,6 +13,7 @@ class vtkActor;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
+class vtkUniforms;
 
 namespace arris::ui {
 
@@ -31,6 +32,9 @@ struct StrokeLayer {
   QColor colour;      ///< Invalid: the stroke's.
 };
 
+/// A plane as normal and offset beyond which nothing is drawn: this one cuts nothing away.
+inline const Eigen::Vector4d no_section(0.0, 0.0, 0.0, 1.0);
+
 /// What a frame needs to know to draw lines; see ViewCamera.
 struct RibbonFrame {
   double pixel_ratio = 1.0;       ///< Device pixels per pixel of the strokes.
@@ -39,6 +43,7 @@ struct RibbonFrame {
   double extra_lift = 0.0;        ///< Mesh unit; for a surface that is only nearly the mesh.
   std::array<int, 2> viewport{};  ///< Device pixels.
   Point towards_viewer = Point::UnitZ();
+  Eigen::Vector4d section = no_section;  ///< In coordinates that start at the origin of the lines.
 };
 
 /// Unit vectors in the faces left and right of the segment, at right angles to it and away from it;
@@ -54,6 +59,12 @@ double line_lift(const Mesh& mesh, VertexId from, VertexId to, const Point& towa
 
 /// Hands coordinates to the shaders as they are: VTK may scale them otherwise.
 void keep_coordinates(vtkPolyDataMapper* mapper);
+
+/// Sets the vertex shader's uniform `sectionPlane`.
+void set_section_uniform(vtkUniforms* uniforms, const Eigen::Vector4d& section);
+
+/// Keeps what a mapper draws in this renderer from hiding what is drawn after it.
+void write_no_depth(vtkPolyDataMapper* mapper, vtkRenderer* renderer);
 
 /// Polylines drawn as camera-facing bands of constant width in pixels, with round joins and round
 /// dashes, smooth at their rims. (Line stipple does not exist in core OpenGL, and wide lines only

@@ -30,11 +30,14 @@ const QColor bare_colour(212, 216, 223);
 const QColor paper_colour(232, 234, 237);
 const QColor unlabelled_colour(226, 227, 230);
 const QColor selected_colour(255, 190, 30);
+const QColor highlight_colour(255, 128, 0);
+const QColor ghost_colour(0, 214, 236);
 
 /// Normals of the vertices make a scan look smooth, those of the faces keep its sharp lines crisp:
 /// where the two differ much the face's is taken.
 constexpr const char* normal_code = R"(
   //VTK::Normal::Impl
+  float cutRim = max(fwidth(beyondVS), 1e-30);
   vec3 faceNormal = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));
   if (faceNormal.z < 0.0) faceNormal = -faceNormal;
   float agreement = dot(faceNormal, normalVCVSOutput);
@@ -43,8 +46,10 @@ constexpr const char* normal_code = R"(
 )";
 
 /// Shades without ever changing a hue, and full colour where the surface faces the viewer: colours
-/// on the part are those of the scalar bar. The back of the part is a dull grey.
+/// on the part are those of the scalar bar. The back of the part is a dull grey. A double rim
+/// shows where a section cuts, whatever the colours there.
 constexpr const char* light_code = R"(
+  if (beyondVS > 0.0) discard;
   float key = max(dot(normalVCVSOutput, vec3(-0.38, 0.48, 0.79)), 0.0);
   float fill = max(dot(normalVCVSOutput, vec3(0.62, -0.30, 0.72)), 0.0);
   float head = max(normalVCVSOutput.z, 0.0);
@@ -53,6 +58,9 @@ constexpr const char* light_code = R"(
   vec3 shaded = diffuseColor * mix(bare, coloured, colourShare);
   shaded += (1.0 - colourShare) * 0.10 * pow(key, 24.0);
   if (!gl_FrontFacing) shaded = vec3(0.47, 0.48, 0.52) * (0.35 + 0.65 * head);
+  float fromCut = -beyondVS / cutRim - cutRimWidth;
+  shaded = mix(vec3(1.0), shaded, smoothstep(cutRimWidth, cutRimWidth + 0.8, fromCut));
+  shaded = mix(vec3(0.06, 0.07, 0.10), shaded, smoothstep(0.0, 0.8, fromCut));
   gl_FragData[0] = vec4(shaded, opacity);
 )";
 
@@ -61,10 +69,24 @@ constexpr const char* light_code = R"(
 constexpr const char* vertex_place_code = "in vec2 tcoord; centroid out vec2 tcoordVCVSOutput;";
 constexpr const char* fragment_place_code = "centroid in vec2 tcoordVCVSOutput;";
 
-constexpr const char* lift_code = R"(
+constexpr const char* place_code = R"(
   //VTK::PositionVC::Impl
   gl_Position.z -= lift;
+  beyondVS = dot(sectionPlane.xyz, vertexMC.xyz) - sectionPlane.w;
 )";
+
+/// Gives an actor the uniforms `lift` (towards the viewer, in depth) and `sectionPlane`, and the
+/// distance beyond the section to its fragments.
+void add_place(vtkActor* actor) {
+  vtkShaderProperty* shader = actor->GetShaderProperty();
+  shader->AddVertexShaderReplacement("//VTK::PositionVC::Dec", true,
+                                     "//VTK::PositionVC::Dec\nout float beyondVS;", false);
+  shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, place_code, false);
+  shader->AddFragmentShaderReplacement("//VTK::PositionVC::Dec", true,
+                                       "//VTK::PositionVC::Dec\nin float beyondVS;", false);
+  shader->GetVertexCustomUniforms()->SetUniformf("lift", 0.0F);
+  set_section_uniform(shader->GetVertexCustomUniforms(), no_section);
+}
 
 std::vector<StrokeLayer> line_layers() {
   return {{line_rim, QColor(255, 255, 255, 215)}, {0.0F, QColor()}};
@@ -113,6 +135,11 @@ void write(unsigned char* at, const QColor& colour) {
   at[2] = static_cast<unsigned char>(colour.blue());
 }
 
+std::array<std::uint8_t, 3> rgb_of(const QColor& colour) {
+  return {static_cast<std::uint8_t>(colour.red()), static_cast<std::uint8_t>(colour.green()),
+          static_cast<std::uint8_t>(colour.blue())};
+}
+
 QColor mixed(const QColor& a, const QColor& b, double share) {
   const auto channel = [&](int x, int y) {
     return static_cast<int>(std::lround(x + (y - x) * share));
@@ -138,6 +165,19 @@ float texture_place(const ColourScale& scale, double value, int steps) {
 
 }  // namespace
 
+bool fits(const ViewField& field, const Mesh& mesh) {
+  if (!field.values) return false;
+  const std::size_t count = field.element == Element::edge   ? mesh.edge_count()
+                            : field.element == Element::face ? mesh.face_count()
+                                                             : mesh.vertex_count();
+  return field.values->size() == count;
+}
+
+bool shows(const std::array<FaceId, 2>& faces, const std::vector<bool>& hidden) {
+  return std::any_of(faces.begin(), faces.end(),
+                     [&](FaceId f) { return f != no_id && !hidden[f]; });
+}
+
 const std::vector<Stroke>& line_strokes() {
   static const std::vector<Stroke> strokes{
       {1.9F, 0.0F, 0.0F, QColor(222, 66, 12)},    // C0 convex: solid
@@ -149,11 +189,12 @@ const std::vector<Stroke>& line_strokes() {
   return strokes;
 }
 
-/// One set of triangles over the points of the mesh.
+/// One set of triangles over the points of a mesh.
 struct Scene::Shape {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
+  std::vector<FaceId> faces;  // the face of the mesh behind each triangle drawn; empty: the same
 
   explicit Shape(vtkRenderer* renderer) {
     mapper->SetInputData(data);
@@ -168,42 +209,257 @@ struct Scene::Shape {
     property->SetSpecular(0.0);
     property->ShowTexturesOnBackfaceOff();
     vtkShaderProperty* shader = actor->GetShaderProperty();
+    add_place(actor);
     shader->AddFragmentShaderReplacement("//VTK::Normal::Impl", true, normal_code, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, light_code, false);
     shader->AddVertexShaderReplacement("//VTK::TCoord::Dec", true, vertex_place_code, false);
     shader->AddFragmentShaderReplacement("//VTK::TCoord::Dec", true, fragment_place_code, false);
+    shader->GetFragmentCustomUniforms()->SetUniformf("cutRimWidth", 1.0F);
+    actor->VisibilityOff();
     renderer->AddActor(actor);
+  }
+
+  void paint(const QColor& colour, float colour_share) {
+    actor->GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
+    actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("colourShare",
+                                                                         colour_share);
+  }
+
+  /// Draws those of `triangles` that are shown; `sources`: their faces, empty: the same numbers.
+  void set_triangles(const std::vector<Triangle>& triangles, const std::vector<FaceId>& sources,
+                     const std::vector<bool>& hidden) {
+    faces = sources;
+    if (hidden.empty()) {
+      data->SetPolys(cells_of(triangles));
+      return;
+    }
+    std::vector<Triangle> shown;
+    faces.clear();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const FaceId face = sources.empty() ? static_cast<FaceId>(i) : sources[i];
+      if (hidden[face]) continue;
+      shown.push_back(triangles[i]);
+      faces.push_back(face);
+    }
+    data->SetPolys(cells_of(shown));
+  }
+
+  /// Flat colours: `colour_of(face)` is written for each triangle drawn.
+  template <class ColourOf>
+  void colour_faces(const ColourOf& colour_of) {
+    const auto count = static_cast<std::size_t>(data->GetNumberOfPolys());
+    const auto array = colours(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto rgb = colour_of(faces.empty() ? static_cast<FaceId>(i) : faces[i]);
+      std::copy(rgb.begin(), rgb.end(), array->GetPointer(3 * static_cast<vtkIdType>(i)));
+    }
+    data->GetCellData()->SetScalars(array);
+    mapper->SetScalarModeToUseCellData();
+    mapper->ScalarVisibilityOn();
   }
 };
 
+/// The edges of a mesh as thin lines.
+struct Scene::Net {
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  std::vector<EdgeId> edges;  // the edge behind each line drawn
+  bool built = false;
+
+  explicit Net(vtkRenderer* renderer) {
+    mapper->SetInputData(data);
+    mapper->SetColorModeToDirectScalars();
+    mapper->SetResolveCoincidentTopologyToOff();
+    keep_coordinates(mapper);
+    actor->SetMapper(mapper);
+    actor->ForceOpaqueOn();
+    actor->VisibilityOff();
+    vtkProperty* property = actor->GetProperty();
+    property->LightingOff();
+    property->SetAmbient(1.0);
+    property->SetDiffuse(0.0);
+    property->SetColor(0.25, 0.27, 0.31);
+    property->SetOpacity(0.45);
+    add_place(actor);
+    actor->GetShaderProperty()->AddFragmentShaderReplacement(
+        "//VTK::Clip::Impl", true, "//VTK::Clip::Impl\n  if (beyondVS > 0.0) discard;", false);
+    renderer->AddActor(actor);
+  }
+
+  void build(const Mesh& mesh, vtkPoints* points, const std::vector<bool>& hidden) {
+    if (built) return;
+    built = true;
+    edges.clear();
+    for (EdgeId e = 0; e < mesh.edge_count(); ++e) {
+      if (hidden.empty() || shows(mesh.edge_faces(e), hidden)) edges.push_back(e);
+    }
+    const auto count = static_cast<vtkIdType>(edges.size());
+    vtkNew<vtkTypeInt32Array> offsets;
+    offsets->SetNumberOfValues(count + 1);
+    vtkNew<vtkTypeInt32Array> ends;
+    ends->SetNumberOfValues(2 * count);
+    for (vtkIdType i = 0; i <= count; ++i) {
+      offsets->SetValue(i, static_cast<std::int32_t>(2 * i));
+    }
+    for (vtkIdType i = 0; i < count; ++i) {
+      const EdgeVertices& edge = mesh.edge(edges[static_cast<std::size_t>(i)]);
+      ends->SetValue(2 * i, static_cast<std::int32_t>(edge[0]));
+      ends->SetValue(2 * i + 1, static_cast<std::int32_t>(edge[1]));
+    }
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets.Get(), ends.Get());
+    data->SetPoints(points);
+    data->SetLines(cells);
+  }
+
+  void clear() {
+    built = false;
+    data->Initialize();
+  }
+};
+
+/// Faces marked in passing, translucent over the surface.
+struct Scene::Highlight {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+
+  explicit Highlight(vtkRenderer* renderer) {
+    points->SetDataTypeToFloat();
+    data->SetPoints(points);
+    data->SetPolys(cells);
+    mapper->SetInputData(data);
+    mapper->SetResolveCoincidentTopologyToOff();
+    keep_coordinates(mapper);
+    write_no_depth(mapper, renderer);
+    actor->SetMapper(mapper);
+    actor->ForceOpaqueOn();
+    actor->VisibilityOff();
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetColor(highlight_colour.redF(), highlight_colour.greenF(),
+                                   highlight_colour.blueF());
+    actor->GetProperty()->SetAmbient(1.0);
+    actor->GetProperty()->SetDiffuse(0.0);
+    actor->GetProperty()->SetOpacity(0.55);
+    add_place(actor);
+    actor->GetShaderProperty()->AddFragmentShaderReplacement(
+        "//VTK::Clip::Impl", true, "//VTK::Clip::Impl\n  if (beyondVS > 0.0) discard;", false);
+    renderer->AddActor(actor);
+  }
+
+  void clear() {
+    points->Reset();
+    cells->Reset();
+    actor->VisibilityOff();
+  }
+
+  void add(const Mesh& mesh, const Point& origin, const std::vector<FaceId>& faces) {
+    for (const FaceId f : faces) {
+      std::array<vtkIdType, 3> ids{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point point = mesh.point(mesh.triangle(f)[k]) - origin;
+        ids[k] = points->InsertNextPoint(point.data());
+      }
+      cells->InsertNextCell(3, ids.data());
+    }
+    points->Modified();
+    cells->Modified();
+    data->Modified();
+    actor->SetVisibility(cells->GetNumberOfCells() > 0);
+  }
+};
+
+/// A mesh as it is drawn: in full, and as its stand-in while the camera moves.
+struct Scene::Body {
+  MeshPtr mesh;
+  std::shared_ptr<const CoarseMesh> coarse;
+  Shape fine, rough;
+  Net net;
+  bool uploaded = false;
+
+  explicit Body(vtkRenderer* renderer) : fine(renderer), rough(renderer), net(renderer) {}
+
+  void set_mesh(MeshPtr other) {
+    mesh = std::move(other);
+    coarse.reset();
+    uploaded = false;
+    net.clear();
+    fine.data->Initialize();
+    rough.data->Initialize();
+  }
+
+  void upload(const Point& origin, const std::vector<bool>& hidden) {
+    if (uploaded || !mesh) return;
+    uploaded = true;
+    const std::size_t count = mesh->vertex_count();
+    vtkNew<vtkFloatArray> points;
+    points->SetNumberOfComponents(3);
+    points->SetNumberOfTuples(static_cast<vtkIdType>(count));
+    for (VertexId v = 0; v < count; ++v) {
+      const Eigen::Vector3f point = (mesh->point(v) - origin).cast<float>();
+      points->SetTypedTuple(v, point.data());
+    }
+    // Weighted by area: small faces of noise count little.
+    std::vector<Point> sums(count, Point::Zero());
+    for (const Triangle& t : mesh->triangles()) {
+      const Point& a = mesh->point(t[0]);
+      const Point normal = (mesh->point(t[1]) - a).cross(mesh->point(t[2]) - a);
+      for (const VertexId v : t) sums[v] += normal;
+    }
+    vtkNew<vtkFloatArray> normals;
+    normals->SetNumberOfComponents(3);
+    normals->SetNumberOfTuples(static_cast<vtkIdType>(count));
+    for (VertexId v = 0; v < count; ++v) {
+      const double length = sums[v].norm();
+      const Eigen::Vector3f normal =
+          (length > 0.0 ? Point(sums[v] / length) : Point(Point::UnitZ())).cast<float>();
+      normals->SetTypedTuple(v, normal.data());
+    }
+    vtkNew<vtkPoints> shell;
+    shell->SetData(points);
+    for (Shape* shape : {&fine, &rough}) {
+      shape->data->SetPoints(shell);
+      shape->data->GetPointData()->SetNormals(normals);
+    }
+    set_hidden(hidden);
+  }
+
+  void set_hidden(const std::vector<bool>& hidden) {
+    if (!uploaded) return;
+    fine.set_triangles(mesh->triangles(), {}, hidden);
+    if (coarse) rough.set_triangles(coarse->triangles, coarse->source_faces, hidden);
+    net.clear();
+  }
+
+  void show(bool shown, bool as_coarse, bool with_net) {
+    as_coarse = as_coarse && coarse != nullptr;
+    fine.actor->SetVisibility(shown && !as_coarse);
+    rough.actor->SetVisibility(shown && as_coarse);
+    net.actor->SetVisibility(shown && !as_coarse && with_net);
+  }
+
+  std::array<vtkActor*, 3> actors() { return {fine.actor, rough.actor, net.actor}; }
+};
+
 Scene::Scene()
-    : label_outline_(line_renderer_, {{3.9F, 0.0F, 0.0F, QColor(255, 214, 0)}},
+    : highlight_(std::make_unique<Highlight>(line_renderer_)),
+      label_outline_(line_renderer_, {{3.9F, 0.0F, 0.0F, QColor(255, 214, 0)}},
                      {{1.0F, QColor(40, 30, 0)}, {0.0F, QColor()}}),
       lines_(line_renderer_, line_strokes(), line_layers()),
-      selected_lines_(line_renderer_, brighter(line_strokes()), selected_layers()) {
-  fine_ = std::make_unique<Shape>(surface_renderer_);
-  rough_ = std::make_unique<Shape>(surface_renderer_);
-  fine_->actor->VisibilityOff();
-  rough_->actor->VisibilityOff();
+      selected_lines_(line_renderer_, brighter(line_strokes()), selected_layers()),
+      ghosts_(line_renderer_, {{2.1F, 7.0F, 13.0F, ghost_colour}},
+              {{1.3F, QColor(10, 30, 38, 220)}, {0.0F, QColor()}}) {
+  body_ = std::make_unique<Body>(surface_renderer_);
+  // After the mesh, so that it blends over it.
+  reference_ = std::make_unique<Body>(surface_renderer_);
 
   texture_->SetInputData(texture_image_);
   texture_->InterpolateOff();
   texture_->RepeatOff();
   texture_->EdgeClampOn();
-
-  net_mapper_->SetInputData(net_data_);
-  net_mapper_->SetColorModeToDirectScalars();
-  net_mapper_->SetResolveCoincidentTopologyToOff();
-  keep_coordinates(net_mapper_);
-  net_->SetMapper(net_mapper_);
-  net_->ForceOpaqueOn();
-  net_->VisibilityOff();
-  net_->GetProperty()->LightingOff();
-  net_->GetProperty()->SetAmbient(1.0);
-  net_->GetProperty()->SetDiffuse(0.0);
-  net_->GetShaderProperty()->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, lift_code,
-                                                        false);
-  surface_renderer_->AddActor(net_);
 
   // The shaders above do the lighting; the light makes VTK hand them normals.
   for (vtkRenderer* renderer : {surface_renderer_.Get(), line_renderer_.Get()}) {
@@ -228,8 +484,7 @@ void Scene::refresh() {
 }
 
 void Scene::set_mesh(MeshPtr mesh) {
-  mesh_ = std::move(mesh);
-  coarse_.reset();
+  hidden_.clear();
   field_.reset();
   labels_.clear();
   label_colours_.clear();
@@ -237,56 +492,70 @@ void Scene::set_mesh(MeshPtr mesh) {
   lines_.clear();
   selected_lines_.clear();
   label_outline_.clear();
-  net_built_ = false;
-  net_data_->Initialize();
-  fine_->data->Initialize();
-  rough_->data->Initialize();
-  if (mesh_) upload_geometry();
+  ghosts_.clear();
+  highlight_->clear();
+  body_->set_mesh(std::move(mesh));
+  reference_->set_mesh(nullptr);
+  if (body_->mesh) {
+    origin_ = (body_->mesh->box_min() + body_->mesh->box_max()) / 2;
+    radius_ = std::max(body_->mesh->diagonal() / 2, 1e-30);
+    body_->upload(origin_, hidden_);
+  }
   refresh();
 }
 
-void Scene::upload_geometry() {
-  origin_ = (mesh_->box_min() + mesh_->box_max()) / 2;
-  radius_ = std::max(mesh_->diagonal() / 2, 1e-30);
-  const std::size_t count = mesh_->vertex_count();
-  vtkNew<vtkFloatArray> points;
-  points->SetNumberOfComponents(3);
-  points->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (VertexId v = 0; v < count; ++v) {
-    const Eigen::Vector3f point = (mesh_->point(v) - origin_).cast<float>();
-    points->SetTypedTuple(v, point.data());
-  }
-  // Weighted by area: small faces of noise count little.
-  std::vector<Point> sums(count, Point::Zero());
-  for (const Triangle& t : mesh_->triangles()) {
-    const Point& a = mesh_->point(t[0]);
-    const Point normal = (mesh_->point(t[1]) - a).cross(mesh_->point(t[2]) - a);
-    for (const VertexId v : t) sums[v] += normal;
-  }
-  vtkNew<vtkFloatArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (VertexId v = 0; v < count; ++v) {
-    const double length = sums[v].norm();
-    const Eigen::Vector3f normal =
-        (length > 0.0 ? Point(sums[v] / length) : Point(Point::UnitZ())).cast<float>();
-    normals->SetTypedTuple(v, normal.data());
-  }
-  vtkNew<vtkPoints> shell;
-  shell->SetData(points);
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
-    shape->data->SetPoints(shell);
-    shape->data->GetPointData()->SetNormals(normals);
-  }
-  fine_->data->SetPolys(cells_of(mesh_->triangles()));
-}
-
 void Scene::set_coarse(std::shared_ptr<const CoarseMesh> coarse) {
-  coarse_ = std::move(coarse);
-  if (!coarse_) return;
-  rough_->data->SetPolys(cells_of(coarse_->triangles));
+  body_->coarse = std::move(coarse);
+  if (!body_->coarse) return;
+  body_->rough.set_triangles(body_->coarse->triangles, body_->coarse->source_faces, hidden_);
   stale_ = true;
 }
+
+void Scene::set_reference(MeshPtr mesh, double gap) {
+  reference_->set_mesh(std::move(mesh));
+  gap_ = gap;
+  refresh();
+}
+
+void Scene::set_reference_coarse(std::shared_ptr<const CoarseMesh> coarse) {
+  reference_->coarse = std::move(coarse);
+  if (!reference_->coarse || !reference_->uploaded) return;
+  reference_->rough.set_triangles(reference_->coarse->triangles, reference_->coarse->source_faces,
+                                  {});
+}
+
+void Scene::set_shown(ShownSurface shown) {
+  if (shown == shown_) return;
+  shown_ = shown;
+  refresh();
+}
+
+ShownSurface Scene::shown() const { return reference_->mesh ? shown_ : ShownSurface::mesh; }
+
+void Scene::set_hidden_faces(std::vector<bool> hidden) {
+  hidden_ = std::move(hidden);
+  body_->set_hidden(hidden_);
+  outline_selection();
+  refresh();
+}
+
+void Scene::set_section(const std::optional<Section>& section) {
+  section_ = section;
+  ++surface_version_;
+}
+
+void Scene::set_ghost_paths(const std::vector<std::vector<VertexId>>& paths) {
+  if (!body_->mesh) return;
+  std::vector<Ribbons::Line> ribbons;
+  for (const auto& path : paths) ribbons.push_back({&path, 0});
+  ghosts_.set_lines(*body_->mesh, origin_, ribbons);
+}
+
+void Scene::highlight_faces(const std::vector<FaceId>& faces) {
+  highlight_->add(*body_->mesh, origin_, faces);
+}
+
+void Scene::clear_highlight() { highlight_->clear(); }
 
 void Scene::set_field(const std::optional<ViewField>& field) {
   field_ = field;
@@ -295,7 +564,7 @@ void Scene::set_field(const std::optional<ViewField>& field) {
 
 void Scene::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours) {
   labels_ = std::move(labels);
-  if (mesh_ && labels_.size() != mesh_->face_count()) labels_.clear();
+  if (body_->mesh && labels_.size() != body_->mesh->face_count()) labels_.clear();
   label_colours_ = std::move(colours);
   outline_selection();
   refresh();
@@ -310,43 +579,45 @@ void Scene::set_selected_labels(std::unordered_set<std::uint32_t> labels) {
 
 void Scene::outline_selection() {
   label_outline_.clear();
-  if (!mesh_ || labels_.empty() || selected_labels_.empty()) return;
+  if (!body_->mesh || labels_.empty() || selected_labels_.empty()) return;
+  const Mesh& mesh = *body_->mesh;
   std::vector<std::vector<VertexId>> segments;
-  for (EdgeId e = 0; e < mesh_->edge_count(); ++e) {
-    const auto faces = mesh_->edge_faces(e);
+  for (EdgeId e = 0; e < mesh.edge_count(); ++e) {
+    const auto faces = mesh.edge_faces(e);
     const auto label = [&](FaceId f) { return f == no_id ? 0u : labels_[f]; };
     const std::uint32_t a = label(faces[0]);
     const std::uint32_t b = label(faces[1]);
     if (a == b || selected_labels_.count(a) + selected_labels_.count(b) == 0) continue;
-    segments.push_back({mesh_->edge(e)[0], mesh_->edge(e)[1]});
+    if (!hidden_.empty() && !shows(faces, hidden_)) continue;
+    segments.push_back({mesh.edge(e)[0], mesh.edge(e)[1]});
   }
   std::vector<Ribbons::Line> lines;
   lines.reserve(segments.size());
   for (const auto& segment : segments) lines.push_back({&segment, 0});
-  label_outline_.set_lines(*mesh_, origin_, lines);
+  label_outline_.set_lines(mesh, origin_, lines);
 }
 
 void Scene::set_lines(const std::vector<ViewLine>& lines) {
-  if (!mesh_) return;
+  if (!body_->mesh) return;
   std::vector<Ribbons::Line> ribbons;
   ribbons.reserve(lines.size());
   for (const ViewLine& line : lines) {
     ribbons.push_back({&line.vertices, static_cast<int>(line.type)});
   }
-  lines_.set_lines(*mesh_, origin_, ribbons);
+  lines_.set_lines(*body_->mesh, origin_, ribbons);
 }
 
 void Scene::set_selected_lines(const std::vector<ViewLine>& lines,
                                const std::unordered_set<std::uint32_t>& ids) {
   selected_lines_.clear();
-  if (!mesh_ || ids.empty()) return;
+  if (!body_->mesh || ids.empty()) return;
   std::vector<Ribbons::Line> ribbons;
   for (const ViewLine& line : lines) {
     if (line.id != 0 && ids.count(line.id) != 0) {
       ribbons.push_back({&line.vertices, static_cast<int>(line.type)});
     }
   }
-  selected_lines_.set_lines(*mesh_, origin_, ribbons);
+  selected_lines_.set_lines(*body_->mesh, origin_, ribbons);
 }
 
 void Scene::set_lines_visible(bool visible) {
@@ -369,15 +640,20 @@ void Scene::set_ground(const QColor& bottom, const QColor& top) {
 }
 
 void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, bool coarse) {
-  coarse = coarse && coarse_ != nullptr;
   if (stale_) show_field();
   stale_ = false;
-  const bool shown = mesh_ != nullptr && mesh_->face_count() > 0;
-  fine_->actor->SetVisibility(shown && !coarse);
-  rough_->actor->SetVisibility(shown && coarse);
-  const bool edge_field = labels_.empty() && field_ && field_->on_edges;
-  net_->SetVisibility(shown && !coarse && (edge_field || edges_visible_));
-  net_->GetProperty()->SetLineWidth(static_cast<float>((edge_field ? 1.3 : 1.0) * pixel_ratio));
+  const bool both = shown() == ShownSurface::both;
+  const bool with_reference = shown() != ShownSurface::mesh;
+  const bool with_mesh =
+      shown() != ShownSurface::reference && body_->mesh != nullptr && body_->mesh->face_count() > 0;
+  const bool edge_field = labels_.empty() && field_ && field_->element == Element::edge;
+  body_->show(with_mesh, coarse, edge_field || edges_visible_);
+  reference_->show(with_reference, coarse, !both && edges_visible_);
+  for (Shape* shape : {&reference_->fine, &reference_->rough})
+    shape->actor->GetProperty()->SetOpacity(both ? 0.5 : 1.0);
+  body_->net.actor->GetProperty()->SetLineWidth(
+      static_cast<float>((edge_field ? 1.3 : 1.0) * pixel_ratio));
+  reference_->net.actor->GetProperty()->SetLineWidth(static_cast<float>(pixel_ratio));
 
   // In a parallel projection the camera's distance does not show; it stays in front of the part.
   const Point focus = camera.focus() - origin_;
@@ -396,38 +672,72 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   frame.pixel_ratio = pixel_ratio;
   frame.units_per_pixel = camera.height() / pixels.height() * pixel_ratio;
   frame.depth_per_unit = 2.0 / (2.4 * radius_);
-  frame.extra_lift = coarse ? coarse_->cell : 0.0;
+  // Lines belong to the mesh, over which the reference may lie and a stand-in may rise.
+  const double reference_lift = both ? 1.5 * gap_ : 0.0;
+  if (with_reference) frame.extra_lift = 1.5 * gap_ + reference_lift;
+  for (const Body* body : {body_.get(), reference_.get()}) {
+    if (body->rough.actor->GetVisibility())
+      frame.extra_lift = std::max(frame.extra_lift, body->coarse->cell);
+  }
   frame.viewport = {pixels.width(), pixels.height()};
   frame.towards_viewer = camera.towards_viewer();
-  for (Ribbons* ribbons : {&lines_, &selected_lines_, &label_outline_}) ribbons->update(frame);
-  net_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf(
-      "lift", static_cast<float>(1.2 * frame.units_per_pixel * frame.depth_per_unit));
+  frame.section = local_section();
+  for (Ribbons* ribbons : {&lines_, &selected_lines_, &label_outline_, &ghosts_})
+    ribbons->update(frame);
+  const auto lift = [&](vtkActor* actor, double units) {
+    actor->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf(
+        "lift", static_cast<float>(units * frame.depth_per_unit));
+  };
+  const double net_lift = 1.2 * frame.units_per_pixel;
+  lift(body_->net.actor, net_lift);
+  lift(reference_->net.actor, net_lift);
+  lift(reference_->fine.actor, reference_lift);
+  lift(reference_->rough.actor, reference_lift);
+  lift(highlight_->actor, net_lift + frame.extra_lift);
+  for (Body* body : {body_.get(), reference_.get()}) {
+    for (vtkActor* actor : body->actors())
+      set_section_uniform(actor->GetShaderProperty()->GetVertexCustomUniforms(), frame.section);
+    for (Shape* shape : {&body->fine, &body->rough})
+      shape->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
+          "cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+  }
+  set_section_uniform(highlight_->actor->GetShaderProperty()->GetVertexCustomUniforms(),
+                      frame.section);
+}
+
+Eigen::Vector4d Scene::local_section() const {
+  if (!section_) return no_section;
+  const Point& n = section_->normal;
+  return {n.x(), n.y(), n.z(), section_->offset - n.dot(origin_)};
 }
 
 void Scene::show_field() {
-  if (!mesh_) return;
+  if (!body_->mesh) return;
+  const Mesh& mesh = *body_->mesh;
   QColor base = bare_colour;
   float colour_share = 1.0F;
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
+  for (Shape* shape : {&body_->fine, &body_->rough}) {
     shape->actor->SetTexture(nullptr);
     shape->data->GetPointData()->SetScalars(nullptr);
     shape->data->GetCellData()->SetScalars(nullptr);
     shape->mapper->ScalarVisibilityOff();
   }
-  const auto fits = [&](std::size_t count) {
-    return field_ && field_->values && field_->values->size() == count;
-  };
-  net_mapper_->ScalarVisibilityOff();
-  net_->GetProperty()->SetColor(0.25, 0.27, 0.31);
-  net_->GetProperty()->SetOpacity(0.45);
-  if (edges_visible_ || (field_ && field_->on_edges)) build_net();
+  const bool drawn = field_ && fits(*field_, mesh);
+  const bool on_edges = drawn && field_->element == Element::edge;
+  body_->net.mapper->ScalarVisibilityOff();
+  body_->net.actor->GetProperty()->SetOpacity(0.45);
+  if (edges_visible_ || on_edges) body_->net.build(mesh, body_->fine.data->GetPoints(), hidden_);
   if (!labels_.empty()) {
     show_labels();
-  } else if (field_ && field_->on_edges && fits(mesh_->edge_count())) {
+  } else if (on_edges) {
     base = paper_colour;
     colour_share = 0.0F;
     show_edge_field();
-  } else if (field_ && !field_->on_edges && fits(mesh_->vertex_count())) {
+  } else if (drawn && field_->element == Element::face) {
+    base = QColor(Qt::white);
+    for (Shape* shape : {&body_->fine, &body_->rough})
+      shape->colour_faces([&](FaceId f) { return field_->scale.colour((*field_->values)[f]); });
+  } else if (drawn) {
     base = QColor(Qt::white);
     if (field_->class_names.isEmpty()) {
       show_scale_field();
@@ -437,10 +747,12 @@ void Scene::show_field() {
   } else {
     colour_share = 0.0F;
   }
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
-    shape->actor->GetProperty()->SetColor(base.redF(), base.greenF(), base.blueF());
-    shape->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("colourShare",
-                                                                                colour_share);
+  for (Shape* shape : {&body_->fine, &body_->rough}) shape->paint(base, colour_share);
+  if (shown() != ShownSurface::mesh) {
+    reference_->upload(origin_, {});
+    if (edges_visible_)
+      reference_->net.build(*reference_->mesh, reference_->fine.data->GetPoints(), {});
+    for (Shape* shape : {&reference_->fine, &reference_->rough}) shape->paint(bare_colour, 0.0F);
   }
 }
 
@@ -476,8 +788,8 @@ void Scene::show_scale_field() {
     // it.
     double sum = 0.0;
     int count = 0;
-    mesh_->for_ring(v, [&](HalfEdgeId h) {
-      const double value = values[mesh_->to(h)];
+    body_->mesh->for_ring(v, [&](HalfEdgeId h) {
+      const double value = values[body_->mesh->to(h)];
       if (std::isnan(value)) return;
       sum += texture_place(scale, value, steps);
       ++count;
@@ -485,7 +797,7 @@ void Scene::show_scale_field() {
     const std::array<float, 2> place{static_cast<float>(count > 0 ? sum / count : 0.5), 0.75F};
     places->SetTypedTuple(v, place.data());
   }
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
+  for (Shape* shape : {&body_->fine, &body_->rough}) {
     shape->data->GetPointData()->SetTCoords(places);
     shape->actor->SetTexture(texture_);
   }
@@ -501,7 +813,7 @@ void Scene::show_class_field() {
           known ? field_->class_colours[static_cast<std::size_t>(values[v])]
                 : field_->scale.undefined);
   }
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
+  for (Shape* shape : {&body_->fine, &body_->rough}) {
     shape->data->GetPointData()->SetScalars(array);
     shape->mapper->SetScalarModeToUsePointData();
     shape->mapper->ScalarVisibilityOn();
@@ -510,37 +822,16 @@ void Scene::show_class_field() {
 
 void Scene::show_edge_field() {
   const std::vector<double>& values = *field_->values;
-  const auto array = colours(values.size());
-  for (EdgeId e = 0; e < values.size(); ++e) {
-    const auto colour = field_->scale.colour(values[e]);
-    std::copy(colour.begin(), colour.end(), array->GetPointer(3 * static_cast<vtkIdType>(e)));
+  Net& net = body_->net;
+  const auto array = colours(net.edges.size());
+  for (std::size_t i = 0; i < net.edges.size(); ++i) {
+    const auto colour = field_->scale.colour(values[net.edges[i]]);
+    std::copy(colour.begin(), colour.end(), array->GetPointer(3 * static_cast<vtkIdType>(i)));
   }
-  net_data_->GetCellData()->SetScalars(array);
-  net_mapper_->SetScalarModeToUseCellData();
-  net_mapper_->ScalarVisibilityOn();
-  net_->GetProperty()->SetOpacity(1.0);
-}
-
-void Scene::build_net() {
-  if (net_built_) return;
-  net_built_ = true;
-  const auto count = static_cast<vtkIdType>(mesh_->edge_count());
-  vtkNew<vtkTypeInt32Array> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  vtkNew<vtkTypeInt32Array> ends;
-  ends->SetNumberOfValues(2 * count);
-  for (vtkIdType i = 0; i <= count; ++i) {
-    offsets->SetValue(i, static_cast<std::int32_t>(2 * i));
-  }
-  for (vtkIdType i = 0; i < count; ++i) {
-    const EdgeVertices& edge = mesh_->edge(static_cast<EdgeId>(i));
-    ends->SetValue(2 * i, static_cast<std::int32_t>(edge[0]));
-    ends->SetValue(2 * i + 1, static_cast<std::int32_t>(edge[1]));
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets.Get(), ends.Get());
-  net_data_->SetPoints(fine_->data->GetPoints());
-  net_data_->SetLines(cells);
+  net.data->GetCellData()->SetScalars(array);
+  net.mapper->SetScalarModeToUseCellData();
+  net.mapper->ScalarVisibilityOn();
+  net.actor->GetProperty()->SetOpacity(1.0);
 }
 
 void Scene::show_labels() {
@@ -551,30 +842,15 @@ void Scene::show_labels() {
     if (label != 0 && selected_labels_.count(label) != 0) {
       colour = mixed(colour, selected_colour, 0.75);
     }
-    return colour;
+    return rgb_of(colour);
   };
-  std::vector<QColor> table;
+  std::vector<std::array<std::uint8_t, 3>> table;
   const std::uint32_t most = *std::max_element(labels_.begin(), labels_.end());
   const std::size_t size = std::min<std::size_t>(most, label_colours_.size()) + 1;
   for (std::uint32_t label = 0; label < size; ++label) table.push_back(colour_of(label));
-  const auto all = colours(labels_.size());
-  for (std::size_t f = 0; f < labels_.size(); ++f) {
-    write(all->GetPointer(3 * static_cast<vtkIdType>(f)),
-          labels_[f] < size ? table[labels_[f]] : colour_of(labels_[f]));
-  }
-  fine_->data->GetCellData()->SetScalars(all);
-  if (coarse_) {
-    const auto some = colours(coarse_->source_faces.size());
-    for (std::size_t i = 0; i < coarse_->source_faces.size(); ++i) {
-      std::copy_n(all->GetPointer(3 * static_cast<vtkIdType>(coarse_->source_faces[i])), 3,
-                  some->GetPointer(3 * static_cast<vtkIdType>(i)));
-    }
-    rough_->data->GetCellData()->SetScalars(some);
-  }
-  for (const auto& shape : {fine_.get(), rough_.get()}) {
-    shape->mapper->SetScalarModeToUseCellData();
-    shape->mapper->ScalarVisibilityOn();
-  }
+  for (Shape* shape : {&body_->fine, &body_->rough})
+    shape->colour_faces(
+        [&](FaceId f) { return labels_[f] < size ? table[labels_[f]] : colour_of(labels_[f]); });
 }
 
 }  // namespace arris::ui

@@ -18,15 +18,9 @@
 #include "ui/view/ribbons.h"
 #include "ui/view/view_camera.h"
 
-class vtkActor;
-class vtkFloatArray;
 class vtkImageData;
-class vtkLookupTable;
-class vtkPolyData;
-class vtkPolyDataMapper;
 class vtkRenderer;
 class vtkTexture;
-class vtkUnsignedCharArray;
 
 namespace arris::ui {
 
@@ -34,6 +28,11 @@ namespace arris::ui {
 const std::vector<Stroke>& line_strokes();
 /// Width of the light rim on each side of a line that sets it off from dark surfaces; pixels.
 inline constexpr float line_rim = 1.1F;
+
+/// Whether a field has as many values as the mesh has elements for it.
+bool fits(const ViewField& field, const Mesh& mesh);
+/// Whether one of the faces of an edge is shown; `hidden`: of each face.
+bool shows(const std::array<FaceId, 2>& faces, const std::vector<bool>& hidden);
 
 /// What VTK draws: the surface and its net in one renderer, the lines over them in another, so that
 /// lines can be drawn anew over a kept picture of the surface. Points are relative to the middle of
@@ -47,12 +46,23 @@ class Scene {
 
   void set_mesh(MeshPtr mesh);
   void set_coarse(std::shared_ptr<const CoarseMesh> coarse);
+  /// Another state of the mesh, at most `gap` away from it; uploaded when it is first shown.
+  void set_reference(MeshPtr mesh, double gap);
+  void set_reference_coarse(std::shared_ptr<const CoarseMesh> coarse);
+  void set_shown(ShownSurface shown);
+  /// What is drawn: the mesh where there is no reference.
+  ShownSurface shown() const;
+  void set_hidden_faces(std::vector<bool> hidden);  ///< Of the mesh; empty: none.
+  void set_section(const std::optional<Section>& section);
   void set_field(const std::optional<ViewField>& field);
   void set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
   void set_selected_labels(std::unordered_set<std::uint32_t> labels);
   void set_lines(const std::vector<ViewLine>& lines);
   void set_selected_lines(const std::vector<ViewLine>& lines,
                           const std::unordered_set<std::uint32_t>& ids);
+  void set_ghost_paths(const std::vector<std::vector<VertexId>>& paths);
+  void highlight_faces(const std::vector<FaceId>& faces);  ///< These too.
+  void clear_highlight();
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);
   /// Two colours from the bottom to the top; one where they are alike; alpha 0: transparent.
@@ -71,8 +81,10 @@ class Scene {
 
  private:
   struct Shape;
-  void upload_geometry();
-  void build_net();
+  struct Net;
+  struct Highlight;
+  struct Body;
+  Eigen::Vector4d local_section() const;
   void show_field();
   void show_class_field();
   void show_scale_field();
@@ -81,8 +93,10 @@ class Scene {
   void outline_selection();
   void refresh();
 
-  MeshPtr mesh_;
-  std::shared_ptr<const CoarseMesh> coarse_;
+  ShownSurface shown_ = ShownSurface::mesh;
+  double gap_ = 0.0;
+  std::vector<bool> hidden_;
+  std::optional<Section> section_;
   Point origin_ = Point::Zero();
   double radius_ = 1.0;
   std::optional<ViewField> field_;
@@ -95,17 +109,15 @@ class Scene {
 
   vtkNew<vtkRenderer> surface_renderer_;
   vtkNew<vtkRenderer> line_renderer_;
-  std::unique_ptr<Shape> fine_;
-  std::unique_ptr<Shape> rough_;
+  std::unique_ptr<Body> body_;
+  std::unique_ptr<Body> reference_;
   vtkNew<vtkTexture> texture_;
   vtkNew<vtkImageData> texture_image_;
-  vtkNew<vtkPolyData> net_data_;
-  vtkNew<vtkPolyDataMapper> net_mapper_;
-  vtkNew<vtkActor> net_;
-  bool net_built_ = false;
+  std::unique_ptr<Highlight> highlight_;
   Ribbons label_outline_;
   Ribbons lines_;
   Ribbons selected_lines_;
+  Ribbons ghosts_;
 };
 
 }  // namespace arris::ui

@@ -100,6 +100,7 @@ ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables ta
     : QObject(parent), session_(session), view_(view), tables_(tables) {
   connect(session_, &Session::changed, this, [this] { refresh(); });
   connect(view_, &MeshView::clicked, this, &ElementsPresenter::clicked);
+  connect(view_, &MeshView::banded, this, &ElementsPresenter::banded);
   connect(tables_.lines, &ElementTable::selection_changed, this, [this](const Ids& ids) {
     lines_ = ids;
     partitions_.clear();
@@ -158,7 +159,10 @@ void ElementsPresenter::refresh() {
   } else {
     view_->set_face_labels({}, {});
   }
+  drop_gone(hidden_, [&](std::uint32_t id) { return document.partitions.find(id); });
+  drop_gone(isolated_, [&](std::uint32_t id) { return document.partitions.find(id); });
   view_->set_lines(view_lines(snapshot));
+  show_visibility();
 
   // Tables of a part with thousands of rows are filled only for the state that stays.
   if (!session_->is_previewing()) {
@@ -233,19 +237,81 @@ void ElementsPresenter::clicked(const std::optional<Pick>& pick, bool toggle) {
   if (!toggle || !chosen) {
     const bool again = chosen && chosen->size() == 1 && chosen->contains(id);
     if (again) return;
-    lines_.clear();
-    partitions_.clear();
-    boundaries_.clear();
+    clear_sets();
   }
   if (chosen && !chosen->insert(id).second) chosen->erase(id);
   show_selection();
   emit selection_changed();
 }
 
-void ElementsPresenter::clear_selection() {
+void ElementsPresenter::banded(const std::vector<std::uint32_t>& line_ids, bool toggle) {
+  if (!toggle) clear_sets();
+  for (const std::uint32_t id : line_ids) {
+    const bool is_line = id < first_boundary;
+    Ids& chosen = is_line ? lines_ : boundaries_;
+    const std::uint32_t number = is_line ? id : id - first_boundary + 1;
+    if (!chosen.insert(number).second) chosen.erase(number);
+  }
+  show_selection();
+  emit selection_changed();
+}
+
+void ElementsPresenter::select_at(const std::optional<Pick>& pick) {
+  if (!pick) return;
+  const Partitions& partitions = session_->shown().document.partitions;
+  const std::uint32_t partition = pick->face == no_id ? 0 : partitions.label(pick->face);
+  const bool selected = pick->line >= first_boundary
+                            ? boundaries_.contains(pick->line - first_boundary + 1)
+                        : pick->line != 0 ? lines_.contains(pick->line)
+                                          : partitions_.contains(partition);
+  if (!selected) clicked(pick, false);
+}
+
+void ElementsPresenter::hide_selected() {
+  if (partitions_.empty()) return;
+  hidden_.insert(partitions_.begin(), partitions_.end());
+  show_visibility();
+  clear_selection();
+  emit visibility_changed();
+}
+
+void ElementsPresenter::isolate_selected() {
+  if (partitions_.empty()) return;
+  isolated_ = partitions_;
+  hidden_.clear();
+  show_visibility();
+  clear_selection();
+  emit visibility_changed();
+}
+
+void ElementsPresenter::show_all() {
+  hidden_.clear();
+  isolated_.clear();
+  show_visibility();
+  emit visibility_changed();
+}
+
+void ElementsPresenter::show_visibility() {
+  if (!hides_any()) {
+    view_->set_hidden_faces({});
+    return;
+  }
+  const auto& labels = session_->shown().document.partitions.labels;
+  std::vector<bool> hidden(labels.size());
+  for (FaceId f = 0; f < hidden.size(); ++f)
+    hidden[f] =
+        hidden_.contains(labels[f]) || (!isolated_.empty() && !isolated_.contains(labels[f]));
+  view_->set_hidden_faces(std::move(hidden));
+}
+
+void ElementsPresenter::clear_sets() {
   lines_.clear();
   partitions_.clear();
   boundaries_.clear();
+}
+
+void ElementsPresenter::clear_selection() {
+  clear_sets();
   show_selection();
   emit selection_changed();
 }

@@ -32,6 +32,15 @@ class ElementsPresenter : public QObject {
   const Ids& selected_boundaries() const { return boundaries_; }  ///< Numbers from 1.
   void clear_selection();
   void zoom_to_selection();
+  /// Selects what was picked unless it is selected already, as a context menu wants it.
+  void select_at(const std::optional<Pick>& pick);
+
+  /// Takes the selected partitions out of the view, or everything else; picking leaves out what is
+  /// not shown. Nothing happens where no partition is selected.
+  void hide_selected();
+  void isolate_selected();
+  void show_all();
+  bool hides_any() const { return !hidden_.empty() || !isolated_.empty(); }
 
   /// What a table of lines and partitions needs made, in place.
   static ElementTable* make_lines_table(QWidget* parent);
@@ -41,17 +50,23 @@ class ElementsPresenter : public QObject {
  signals:
   /// By the user, in the view or a table.
   void selection_changed();
+  /// Partitions were hidden, isolated or shown again.
+  void visibility_changed();
 
  private:
   void refresh();
   void show_selection();
   void clicked(const std::optional<Pick>& pick, bool toggle);
+  void banded(const std::vector<std::uint32_t>& line_ids, bool toggle);
+  void show_visibility();
+  void clear_sets();
 
   Session* session_;
   MeshView* view_;
   Tables tables_;
   bool partitions_shown_ = false;
   Ids lines_, partitions_, boundaries_;  // selected
+  Ids hidden_, isolated_;                // partitions; none isolated: all are shown
 };
 
 }  // namespace arris::ui

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/number_text.h"
+#include "core/mesh/face_quality.h"
+#include "core/simplification/occupancy.h"
 
 namespace arris::ui {
 
@@ -21,7 +23,14 @@ const std::vector<QColor>& shape_colours() {
   return colours;
 }
 
+/// Where the range of a field is known beforehand, from 0.
+double most_of(Field field) { return field == Field::deviation ? 100.0 : 1.0; }
+
 }  // namespace
+
+QString FieldPresenter::why_not_available() {
+  return tr("Simplify or swap edges first: the scan's vertices have no error zones yet.");
+}
 
 QString title_of(Field field) {
   const FieldInfo& info = info_of(field);
@@ -38,6 +47,11 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
     ColourMapState& s = states_[static_cast<std::size_t>(info.field)];
     s.field = static_cast<int>(info.field);
     if (info.is_signed) s.scale.map = ColourMap::diverging;
+    if (!info.is_curvature) {  // shares of a whole: pictures compare without more ado
+      s.scale.map = ColourMap::viridis;
+      s.range = ColourMapState::Range::typed;
+      s.scale.max = most_of(info.field);
+    }
   }
   panel_->set_fields(names, tooltips);
   panel_->set_state(state());
@@ -46,15 +60,19 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
 
 void FieldPresenter::show(const Document& document) {
   const CurvaturesPtr& curvatures = document.shown_curvatures();
-  if (curvatures == curvatures_ && document.mesh == mesh_) return;
+  if (curvatures == curvatures_ && document.mesh == mesh_ && document.zones == zones_) return;
   mesh_ = document.mesh;
   curvatures_ = curvatures;
+  zones_ = document.zones;
+  panel_->set_field_available(static_cast<int>(Field::deviation), is_available(Field::deviation),
+                              why_not_available());
+  if (!is_available(field_)) field_ = Field::kabs;
   load();
   refresh();
 }
 
 void FieldPresenter::set_field(Field field) {
-  if (field == field_) return;
+  if (field == field_ || !is_available(field)) return;
   field_ = field;
   load();
   refresh();
@@ -71,12 +89,29 @@ void FieldPresenter::take(const ColourMapState& wanted) {
 }
 
 void FieldPresenter::load() {
+  mark_.reset();
   if (!curvatures_) {
     values_.reset();
     distribution_ = {};
     return;
   }
-  values_ = std::make_shared<const std::vector<double>>(field_values(*curvatures_, field_));
+  std::vector<double> values;
+  if (field_ == Field::deviation) {
+    Occupancy occupancy = occupancy_of(*mesh_, *zones_);
+    values = std::move(occupancy.shares);
+    for (double& value : values) value *= 100.0;
+    const FaceOccupancy& worst = occupancy.worst;
+    if (worst.worst != no_id)
+      mark_ = ViewMark{mesh_->point(worst.worst),
+                       tr("worst: %1 mm, %2 % of its zone")
+                           .arg(QString::fromStdString(number_text(worst.distance, 3)),
+                                QString::fromStdString(fixed_text(100.0 * worst.share, 0)))};
+  } else if (field_ == Field::face_quality) {
+    values = face_qualities(*mesh_);
+  } else {
+    values = field_values(*curvatures_, field_);
+  }
+  values_ = std::make_shared<const std::vector<double>>(std::move(values));
   distribution_ = Distribution(*values_, field_weights(*mesh_, field_));
 }
 
@@ -105,7 +140,8 @@ void FieldPresenter::refresh() {
   ViewField shown;
   shown.title = title_of(field_);
   shown.values = values_;
-  shown.on_edges = info.on_edges;
+  shown.element = info.element;
+  shown.mark = mark_;
   shown.scale = s.scale;
   shown.read_as_radius = field_ == Field::kabs;
   if (info.is_class) {
@@ -123,10 +159,13 @@ void FieldPresenter::refresh() {
     emit changed();
     return;
   }
-  if (!info.is_signed) {
+  if (!info.is_curvature) {
+    low = 0.0;
+    high = most_of(field_);
+  } else if (!info.is_signed) {
     histogram.logarithmic = true;
     low = std::max(distribution_.quantile(0.002), high * 1e-6);
-  } else if (info.on_edges) {
+  } else if (info.element == Element::edge) {
     high = std::max({std::abs(low), std::abs(high), 60.0});  // room for the angle of any threshold
     low = -high;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <QObject>
 
@@ -19,8 +20,12 @@ class FieldPresenter : public QObject {
  public:
   FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramPanel* histogram, QObject* parent);
 
-  /// The document shown is another one; does nothing where its curvatures are the same.
+  /// The document shown is another one; does nothing where mesh, curvatures and zones are the same.
+  /// A field that it does not have gives way to Kabs.
   void show(const Document& document);
+  /// Whether the document shown has the field: Deviation needs error zones.
+  bool is_available(Field field) const { return field != Field::deviation || zones_; }
+  static QString why_not_available();  ///< One sentence, for tooltips.
   void set_field(Field field);
   Field field() const { return field_; }
   const Distribution& distribution() const { return distribution_; }
@@ -40,10 +45,12 @@ class FieldPresenter : public QObject {
   ColourMapPanel* panel_;
   HistogramPanel* histogram_;
   Field field_ = Field::kabs;
-  std::array<ColourMapState, 8> states_;  // of each field
+  std::array<ColourMapState, 10> states_;  // of each field
   MeshPtr mesh_;
   CurvaturesPtr curvatures_;
+  ErrorZonesPtr zones_;
   std::shared_ptr<const std::vector<double>> values_;
+  std::optional<ViewMark> mark_;
   Distribution distribution_;
 };
 

@@ -29,10 +29,15 @@
 #include "core/base/number_text.h"
 #include "core/document/export.h"
 #include "core/document/journal.h"
+#include "core/mesh/face_quality.h"
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
+#include "core/simplification/occupancy.h"
+#include "ui/panels/controls.h"
 #include "ui/panels/history_panel.h"
+#include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
+#include "ui/window/actions.h"
 #include "ui/window/picture_dialog.h"
 #include "ui/window/theme.h"
 
@@ -44,21 +49,12 @@ constexpr int most_recent = 10;
 constexpr int progress_delay = 300;  // ms: shorter work shows no progress
 
 QString number(double value, int digits = 4) {
-  return std::isnan(value) ? QString("–") : QString::fromStdString(number_text(value, digits));
+  return std::isnan(value) ? QString("–")
+                           : QString::fromStdString(arris::number_text(value, digits));
 }
 
 QString counted(std::size_t count, const QString& what) {
-  return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + what;
-}
-
-/// The same icon-free look everywhere: text with shortcut, tooltip that says what it does.
-QAction* action(QMenu* menu, const QString& text, const QKeySequence& shortcut,
-                const QString& tooltip) {
-  QAction* result = menu->addAction(text);
-  result->setShortcut(shortcut);
-  result->setToolTip(tooltip);
-  result->setStatusTip(tooltip);
-  return result;
+  return count_text(static_cast<qint64>(count)) + " " + what;
 }
 
 }  // namespace
@@ -90,6 +86,12 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   });
   elements_ = new ElementsPresenter(session_, view_,
                                     {lines_table_, partitions_table_, boundaries_table_}, this);
+  section_bar_ = new SectionBar(this);
+  section_ = new SectionPresenter(session_, view_, section_bar_, this);
+  view_presenter_ = new ViewPresenter(session_, view_, elements_, this);
+  const auto tell = [this](const QString& text) { statusBar()->showMessage(text, 10000); };
+  connect(section_, &SectionPresenter::message, this, tell);
+  connect(view_presenter_, &ViewPresenter::message, this, tell);
   thresholds_ = new ThresholdPresenter(session_, fields_, histogram_, this);
   steps_ = new StepsPresenter(session_, steps_panel_, this);
   make_status_bar();
@@ -118,6 +120,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     else
       view_->look_from(MeshView::StandardView::isometric);
     show_partitions(false);
+    view_->setFocus();
     remember_recent(path);
     if (!document.scan->report.clean())
       statusBar()->showMessage(
@@ -155,6 +158,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
                                                                    : nullptr;
     if (name) findChild<QDockWidget*>(name)->raise();
   });
+  connect(elements_, &ElementsPresenter::visibility_changed, this, &MainWindow::refresh_counts);
   connect(view_, &MeshView::hovered, this, &MainWindow::show_hover);
   connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
   connect(fields_, &FieldPresenter::changed, this, [this] {
@@ -165,6 +169,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());
   restoreState(settings.value("window/state").toByteArray());
+  section_bar_->hide();
   refresh_recent();
   refresh_actions();
   refresh_counts();
@@ -322,7 +327,7 @@ void MainWindow::make_actions() {
   int key = 1;
   for (const FieldInfo& info : field_table()) {
     QAction* a =
-        action(field_menu, title_of(info.field), QKeySequence(QString("Alt+%1").arg(key++)),
+        action(field_menu, title_of(info.field), QKeySequence(QString("Alt+%1").arg(key++ % 10)),
                QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
     a->setCheckable(true);
     a->setData(static_cast<int>(info.field));
@@ -330,6 +335,10 @@ void MainWindow::make_actions() {
     field_actions_->addAction(a);
     connect(a, &QAction::triggered, this, [this, field = info.field] { set_field(field); });
   }
+  view_presenter_->add_surface_actions(look->addMenu(tr("S&urface")));
+  section_->add_actions(look->addMenu(tr("Se&ction")));
+  look->addSeparator();
+  view_presenter_->add_visibility_actions(look);
   look->addSeparator();
   struct Toggle {
     QString text, shortcut, tooltip;
@@ -378,6 +387,8 @@ void MainWindow::make_actions() {
   for (QDockWidget* dock : findChildren<QDockWidget*>())
     panels_menu_->addAction(dock->toggleViewAction());
 
+  view_presenter_->add_tool_actions(menuBar()->addMenu(tr("&Tools")));
+
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   connect(
       action(help, tr("&Start page"), QKeySequence("F1"), tr("The start page and the five steps")),
@@ -402,6 +413,10 @@ void MainWindow::make_actions() {
   bar->addActions({show_field_, show_partitions_});
   bar->addSeparator();
   bar->addActions({run_all_, fit, save_picture_});
+  section_bar_->setObjectName("section");
+  section_bar_->toggleViewAction()->setVisible(false);
+  addToolBar(section_bar_);
+  bar->setMinimumHeight(section_bar_->sizeHint().height());  // nothing moves when it comes
 }
 
 void MainWindow::open(const QString& path) {
@@ -622,6 +637,9 @@ void MainWindow::refresh_actions() {
   for (QAction* a : part_actions_) a->setEnabled(part);
   for (QAction* a : {run_lines_, run_partitions_}) a->setEnabled(part && !busy);
   flip_->setEnabled(part && !busy);
+  for (QAction* a : field_actions_->actions())
+    set_available(a, fields_->is_available(static_cast<Field>(a->data().toInt())),
+                  FieldPresenter::why_not_available());
   run_all_->setEnabled(part && !busy && steps_->anything_out_of_date());
   undo_->setEnabled(false);
   redo_->setEnabled(false);
@@ -671,6 +689,7 @@ void MainWindow::refresh_counts() {
     text += "  ·  " + counted(document.lines.lines.size(), tr("lines"));
   if (document.find_partitions)
     text += "  ·  " + counted(document.partitions.partitions.size(), tr("partitions"));
+  if (elements_->hides_any()) text += "  ·  " + tr("some hidden (Shift+H shows all)");
   counts_label_->setText(text);
 }
 
@@ -689,19 +708,30 @@ void MainWindow::show_hover(const std::optional<Pick>& pick) {
   text += tr("   IKabs %1").arg(number(c.ikabs[v]));
   if (pick->edge < document.mesh->edge_count())
     text += tr("   |IHe| %1°").arg(number(std::abs(c.beta[pick->edge]) * 180.0 / M_PI, 3));
+  if (pick->face < document.mesh->face_count()) {
+    text += tr("   quality %1").arg(number(face_quality(*document.mesh, pick->face), 2));
+    if (document.zones) {
+      const FaceOccupancy use = occupancy_of_face(*document.mesh, *document.zones, pick->face);
+      text +=
+          tr("   deviation %1 mm, %2 %").arg(number(use.distance, 2), number(100.0 * use.share, 2));
+    }
+  }
   if (pick->line != 0 && document.lines.find(pick->line)) text += tr("   line %1").arg(pick->line);
   if (const std::uint32_t label = document.partitions.label(pick->face); label != 0)
     text += tr("   partition %1").arg(label);
   hover_label_->setText(text);
 }
 
-void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>&) {
+void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>& pick) {
   if (session_->current().document.empty()) return;
+  elements_->select_at(pick);
   QMenu menu(this);
   menu.addActions({show_field_, show_partitions_});
   menu.addSeparator();
   for (QAction* a : part_actions_)
     if (a->shortcut() == QKeySequence("F") || a->shortcut() == QKeySequence("Z")) menu.addAction(a);
+  menu.addSeparator();
+  menu.addActions(view_presenter_->visibility_actions());
   menu.addSeparator();
   menu.addActions({copy_picture_, save_picture_});
   menu.exec(global);

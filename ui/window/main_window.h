@@ -4,9 +4,11 @@
 
 #include "ui/window/elements_presenter.h"
 #include "ui/window/field_presenter.h"
+#include "ui/window/section_presenter.h"
 #include "ui/window/session.h"
 #include "ui/window/steps_presenter.h"
 #include "ui/window/threshold_presenter.h"
+#include "ui/window/view_presenter.h"
 
 class QAction;
 class QActionGroup;
@@ -21,6 +23,7 @@ class QTimer;
 namespace arris::ui {
 
 class HistoryPanel;
+class SectionBar;
 class StartPage;
 
 /// The workbench: the part in the centre, steps on the left, tables on the right, the histogram
@@ -88,6 +91,9 @@ class MainWindow : public QMainWindow {
   FieldPresenter* fields_;
   ElementsPresenter* elements_;
   ThresholdPresenter* thresholds_;
+  ViewPresenter* view_presenter_;
+  SectionPresenter* section_;
+  SectionBar* section_bar_;
   StepsPresenter* steps_;
 
   QMenu* recent_menu_;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <QLocale>
+#include <iterator>
 
 #include "core/base/number_text.h"
+#include "core/mesh/face_quality.h"
 #include "core/sharp_lines/sharp_lines.h"
+#include "ui/panels/controls.h"
 
 namespace arris::ui {
 
@@ -14,11 +15,12 @@ namespace {
 
 QString seconds_text(double seconds) {
   if (seconds <= 0.0) return {};
-  return QString::fromStdString(seconds < 0.0095 ? "< 0.01" : number_text(seconds, 2)) + " s";
+  return QString::fromStdString(seconds < 0.0095 ? "< 0.01" : arris::number_text(seconds, 2)) +
+         " s";
 }
 
 QString counted(std::size_t count, const QString& one, const QString& many) {
-  return QLocale::c().toString(static_cast<qulonglong>(count)) + " " + (count == 1 ? one : many);
+  return count_text(static_cast<qint64>(count)) + " " + (count == 1 ? one : many);
 }
 
 /// The steps that can be run, in the order of figure 2.
@@ -71,9 +73,21 @@ QString vertices_text(const Mesh& before, const Mesh& after) {
   const auto used = [](const Mesh& mesh) {
     std::size_t count = 0;
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) count += !mesh.is_isolated(v);
-    return QLocale(QLocale::English).toString(static_cast<qulonglong>(count));
+    return count_text(static_cast<qint64>(count));
   };
   return used(before) + " → " + used(after) + " " + QObject::tr("vertices");
+}
+
+/// Edges of a mesh that another one does not have.
+std::size_t count_new_edges(const Mesh& mesh, const Mesh& before) {
+  std::vector<EdgeVertices> fresh;  // both lists are sorted
+  std::set_difference(mesh.edges().begin(), mesh.edges().end(), before.edges().begin(),
+                      before.edges().end(), std::back_inserter(fresh));
+  return fresh.size();
+}
+
+QString wide_angles_text(const Mesh& mesh) {
+  return QString::fromStdString(fixed_text(100.0 * share_of_angles_above(mesh, 120.0), 1));
 }
 
 }  // namespace
@@ -141,6 +155,17 @@ void StepsPresenter::run_out_of_date() {
   session_->run(std::move(operations));
 }
 
+QString StepsPresenter::swaps_text(const MeshPtr& before, const MeshPtr& after) {
+  for (const Swaps& known : swaps_)
+    if (known.before == before && known.after == after) return known.text;
+  const QString text =
+      counted(count_new_edges(*after, *before), tr("edge swapped"), tr("edges swapped")) +
+      tr(", angles above 120°: %1 → %2 %").arg(wide_angles_text(*before), wide_angles_text(*after));
+  if (swaps_.size() > 3) swaps_.erase(swaps_.begin());  // no meshes are kept for nothing
+  swaps_.push_back({before, after, text});
+  return text;
+}
+
 void StepsPresenter::refresh() {
   const Document& document = session_->shown().document;
   std::vector<StepCard> cards;
@@ -155,7 +180,7 @@ void StepsPresenter::refresh() {
     open.result =
         counted(mesh.face_count(), tr("face"), tr("faces")) + ", " +
         tr("edges %1 mm, %2")
-            .arg(QString::fromStdString(number_text(mesh.mean_edge_length(), 3)),
+            .arg(QString::fromStdString(arris::number_text(mesh.mean_edge_length(), 3)),
                  counted(mesh.border_edge_count(), tr("border edge"), tr("border edges")));
     if (!document.scan->report.clean()) open.result += "; " + tr("mended, see the load report");
     open.time = seconds_text(session_->seconds_of("open"));
@@ -207,11 +232,17 @@ void StepsPresenter::refresh() {
       simplify.result =
           vertices_text(*document.opened.mesh, *document.simplified.mesh) +
           tr(", all within %1 mm")
-              .arg(QString::fromStdString(number_text(z.value("error_zone", 0.0), 3)));
+              .arg(QString::fromStdString(arris::number_text(z.value("error_zone", 0.0), 3)));
     swap.state = state(document.swap_edges);
     swap.time = seconds_text(session_->seconds_of("swap_edges"));
+    const MeshPtr before_swaps =
+        document.simplified.mesh ? document.simplified.mesh : document.opened.mesh;
+    if (document.swapped.mesh) swap.result = swaps_text(before_swaps, document.swapped.mesh);
     equilateral.state = state(document.equilateralize);
     equilateral.time = seconds_text(session_->seconds_of("equilateralize"));
+    if (document.equilateralize && !document.equilateralize->out_of_date)
+      equilateral.result =
+          swaps_text(document.swapped.mesh ? document.swapped.mesh : before_swaps, document.mesh);
 
     const nlohmann::json p = session_->parameters("find_sharp_lines");
     lines.state = state(document.find_sharp_lines);

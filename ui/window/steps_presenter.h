@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <QObject>
 
 #include "ui/panels/steps_panel.h"
@@ -21,10 +23,17 @@ class StepsPresenter : public QObject {
 
  private:
   void refresh();
+  QString swaps_text(const MeshPtr& before, const MeshPtr& after);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
 
   Session* session_;
   StepsPanel* panel_;
+  /// Results that take a look at the whole mesh, for the meshes they were worked out for.
+  struct Swaps {
+    MeshPtr before, after;
+    QString text;
+  };
+  std::vector<Swaps> swaps_;
 };
 
 }  // namespace arris::ui

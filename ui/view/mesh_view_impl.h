@@ -1,0 +1,127 @@
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <new>
+#include <set>
+#include <unordered_set>
+#include <utility>
+
+#include <QThreadPool>
+#include <QTimer>
+
+#include "ui/view/gl_canvas.h"
+#include "ui/view/mesh_view.h"
+#include "ui/view/overlay.h"
+#include "ui/view/picker.h"
+#include "ui/view/scene.h"
+#include "ui/view/tool_overlay.h"
+
+namespace arris::ui {
+
+template <class Value>
+using Later = std::shared_future<std::shared_ptr<const Value>>;
+
+/// Makes a value on another thread; null if memory runs out.
+template <class Value, class Make>
+Later<Value> in_background(QThreadPool& workers, Make make) {
+  const auto promise = std::make_shared<std::promise<std::shared_ptr<const Value>>>();
+  Later<Value> later = promise->get_future().share();
+  workers.start([promise, make = std::move(make)] {
+    try {
+      promise->set_value(std::make_shared<const Value>(make()));
+    } catch (const std::bad_alloc&) {
+      promise->set_value(nullptr);
+    }
+  });
+  return later;
+}
+
+template <class Value>
+std::shared_ptr<const Value> if_ready(const Later<Value>& later) {
+  using namespace std::chrono_literals;
+  return later.valid() && later.wait_for(0s) == std::future_status::ready ? later.get() : nullptr;
+}
+
+inline QSizeF logical_size(const QWidget& view) { return QSizeF(view.size().expandedTo({1, 1})); }
+
+/// The numbers of a measurement, line by line, the distance first.
+QStringList measured_lines(const Mesh& mesh, const Pick& from, const Pick& to);
+
+/// What MeshView keeps: what is shown (mesh_view.cpp) and what the user is doing
+/// (mesh_view_input.cpp).
+struct MeshView::Impl {
+  enum class Drag { none, orbit, pan, zoom, band, paint, line };
+
+  MeshPtr mesh;
+  MeshPtr reference;
+  std::vector<ViewLine> lines;        // as given
+  std::vector<ViewLine> shown_lines;  // without the runs between hidden faces
+  std::unordered_set<std::uint32_t> selected_lines;
+  std::vector<bool> hidden;  // faces; empty: none
+  std::optional<Section> section;
+  std::optional<ViewField> field;
+  bool field_has_undefined = false;
+  std::set<LineType> line_types;
+  bool lines_visible = true;
+  bool scalar_bar_visible = true;
+  bool dark = false;
+
+  ViewCamera camera;
+  Scene scene;
+  GlCanvas canvas{scene};
+  QMetaObject::Connection context_end;
+  Later<RayTree> tree;
+  Later<CoarseMesh> coarse, reference_coarse;
+  bool coarse_given = false, reference_coarse_given = false;  // to the scene
+  QThreadPool workers;  // of its own: a click must not wait for other work of the program
+
+  Drag drag = Drag::none;
+  bool dragged = false;
+  Qt::MouseButton button = Qt::NoButton;
+  QPoint pressed_at, last_at, hover_at;
+  Point pivot = Point::Zero();
+  bool moving = false;
+  QTimer hover_timer, rest_timer;
+
+  Tool tool = Tool::select;
+  QString hint;  // empty: that of the tool
+  double brush_radius = 1.0;
+  std::optional<Pick> brush_at;  // where the ring is drawn
+  std::vector<VertexId> stroke;
+  QPoint painted_at;
+  std::unordered_set<FaceId> painted;
+  std::vector<Pick> measured;     // one or two
+  std::optional<Pick> measuring;  // the end that follows the pointer
+  std::uint32_t grabbed_line = 0;
+  VertexId grabbed_vertex = no_id, dragged_vertex = no_id;
+  std::vector<Point> picked_points;
+
+  QImage overlay_image, tools_image;
+  QPoint tools_at;
+  Overlay overlay_shown;
+  ToolOverlay tools_shown;
+  QSize overlay_pixels;
+
+  void show_ground();
+  double least_height() const { return mesh ? std::max(mesh->diagonal() * 1e-5, 1e-30) : 1e-30; }
+  double most_height() const { return mesh ? std::max(mesh->diagonal() * 50.0, 1e-30) : 1e30; }
+  /// What is written over a picture whose pixels, those of its text, are `units` wide.
+  Overlay overlay(const ViewCamera& seen, double units) const;
+  /// What tools and marks draw over a view of `size` seen by `seen`.
+  ToolOverlay tools(const ViewCamera& seen, QSizeF size) const;
+  bool field_shown() const;
+  QString hint_shown() const;
+  void show_lines();
+
+  PickSpace space(const RayTree& with, QSizeF size) const {
+    return {with, camera, size, hidden.empty() ? nullptr : &hidden, section};
+  }
+  std::optional<Pick> pick(const RayTree& with, QSizeF size, const QPoint& position,
+                           bool with_lines = true) const {
+    static const std::vector<ViewLine> none;
+    return pick_at(space(with, size), position, with_lines && lines_visible ? shown_lines : none);
+  }
+};
+
+}  // namespace arris::ui
