@@ -191,6 +191,32 @@ std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
   return found;
 }
 
+VertexId nearest_on(const Mesh& mesh, const Line& line, const Point& point) {
+  return *std::min_element(line.vertices.begin(), line.vertices.end(), [&](VertexId a, VertexId b) {
+    return (mesh.point(a) - point).squaredNorm() < (mesh.point(b) - point).squaredNorm();
+  });
+}
+
+std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, VertexId at,
+                                            double distance) {
+  const std::vector<VertexId>& path = line.vertices;
+  const auto place = std::find(path.begin(), path.end(), at) - path.begin();
+  constexpr std::ptrdiff_t least_edges = 2;
+  const auto walk = [&](std::ptrdiff_t step) {
+    double length = 0.0;
+    std::ptrdiff_t k = place;
+    const std::ptrdiff_t end = step < 0 ? 0 : static_cast<std::ptrdiff_t>(path.size()) - 1;
+    while (k != end && (std::abs(k - place) < least_edges || length < 2.0 * distance)) {
+      length += (mesh.point(path[static_cast<std::size_t>(k + step)]) -
+                 mesh.point(path[static_cast<std::size_t>(k)]))
+                    .norm();
+      k += step;
+    }
+    return path[static_cast<std::size_t>(k)];
+  };
+  return {walk(-1), walk(1)};
+}
+
 std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region,
                                          const SharpLines* stop_at) {
   return within(mesh, region.stroke, region.radius, stop_at);

@@ -52,6 +52,15 @@ LineChanges remove_path(const Mesh& mesh, const SharpLines& lines,
 std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
                                const std::vector<VertexId>& path);
 
+/// The vertex of a line nearest to a point (tie: the first along it).
+VertexId nearest_on(const Mesh& mesh, const Line& line, const Point& point);
+
+/// The stretch of a line on both sides of its vertex `at` that gives way when that is moved by
+/// `distance` (mm): twice as far along the line, and at least two edges, up to the line's ends.
+/// First and last vertex of the stretch.
+std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, VertexId at,
+                                            double distance);
+
 /// A region brushed on the surface: the vertices that are joined to one of the stroke by edges, all
 /// of which lie within `radius` (mm) of a vertex of the stroke.
 struct Region {

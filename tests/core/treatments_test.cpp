@@ -748,14 +748,17 @@ TEST(RandomTreatments, KeepTheInvariantsOnTheSampleMould) {
   run_random_edits(file, 400, 1);
 }
 
-TEST(RandomTreatments, KeepTheInvariantsOnARealMesh) {
+/// Sessions as long as a user's, one after the other, each replayed at its end: 20 of 500 edits.
+class RandomTreatmentsOnARealMesh : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomTreatmentsOnARealMesh, KeepTheInvariants) {
   const std::filesystem::path file =
       std::filesystem::path(ARRIS_SOURCE_DIR) / "../shared/data/pairs/block_n1.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no ../shared/data";
-  // Sessions as long as a user's, one after the other: 10,000 edits, a replay at the end of each.
-  for (std::uint64_t session = 0; session < 20 && !HasFatalFailure(); ++session)
-    run_random_edits(file.string(), 500, 100 + session);
+  run_random_edits(file.string(), 500, static_cast<std::uint64_t>(100 + GetParam()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Sessions, RandomTreatmentsOnARealMesh, ::testing::Range(0, 20));
 
 }  // namespace
 }  // namespace arris

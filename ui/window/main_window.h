@@ -8,6 +8,7 @@
 #include "ui/window/session.h"
 #include "ui/window/steps_presenter.h"
 #include "ui/window/threshold_presenter.h"
+#include "ui/window/treatments_presenter.h"
 #include "ui/window/view_presenter.h"
 
 class QAction;
@@ -94,6 +95,8 @@ class MainWindow : public QMainWindow {
   ViewPresenter* view_presenter_;
   SectionPresenter* section_;
   SectionBar* section_bar_;
+  TreatmentsPresenter* treatments_;
+  TreatmentBar* treatment_bar_;
   StepsPresenter* steps_;
 
   QMenu* recent_menu_;
