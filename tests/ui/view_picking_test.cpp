@@ -151,7 +151,7 @@ TEST_F(MeshViewTest, ClicksAndHoversTellWhatIsThere) {
                      view_.mapToGlobal(middle() + QPoint(x, 0)), Qt::NoButton, Qt::NoButton, {});
     QApplication::sendEvent(&view_, &move);
   }
-  QTest::qWait(100);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return hovered.count() > 0; }, 5000));
   ASSERT_EQ(hovered.count(), 1);  // twenty moves at once
   EXPECT_TRUE(hovered[0][0].value<std::optional<Pick>>().has_value());
 }

@@ -37,7 +37,7 @@ const QColor ghost_colour(0, 214, 236);
 /// where the two differ much the face's is taken.
 constexpr const char* normal_code = R"(
   //VTK::Normal::Impl
-  float cutRim = max(fwidth(beyondVS), 1e-30);
+  float cutRim = clamp(fwidth(beyondVS), 1e-30, cutMost);  // thin on walls seen edge-on
   vec3 faceNormal = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));
   if (faceNormal.z < 0.0) faceNormal = -faceNormal;
   float agreement = dot(faceNormal, normalVCVSOutput);
@@ -222,6 +222,7 @@ struct Scene::Shape {
     shader->AddVertexShaderReplacement("//VTK::TCoord::Dec", true, vertex_place_code, false);
     shader->AddFragmentShaderReplacement("//VTK::TCoord::Dec", true, fragment_place_code, false);
     shader->GetFragmentCustomUniforms()->SetUniformf("cutRimWidth", 1.0F);
+    shader->GetFragmentCustomUniforms()->SetUniformf("cutMost", 1.0F);
     actor->VisibilityOff();
     renderer->AddActor(actor);
   }
@@ -704,9 +705,12 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   for (Body* body : {body_.get(), reference_.get()}) {
     for (vtkActor* actor : body->actors())
       set_section_uniform(actor->GetShaderProperty()->GetVertexCustomUniforms(), frame.section);
-    for (Shape* shape : {&body->fine, &body->rough})
-      shape->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
-          "cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+    for (Shape* shape : {&body->fine, &body->rough}) {
+      vtkUniforms* uniforms = shape->actor->GetShaderProperty()->GetFragmentCustomUniforms();
+      uniforms->SetUniformf("cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+      uniforms->SetUniformf("cutMost",
+                            static_cast<float>(1.5 * frame.units_per_pixel / pixel_ratio));
+    }
   }
   set_section_uniform(highlight_->actor->GetShaderProperty()->GetVertexCustomUniforms(),
                       frame.section);
