@@ -27,10 +27,10 @@ TreatmentBar::TreatmentBar(QWidget* parent) : QToolBar(parent) {
   slider_ = new QSlider(Qt::Horizontal, this);
   slider_->setRange(0, slider_steps);
   slider_->setPageStep(slider_steps / 20);
-  slider_->setFixedWidth(220);
+  slider_->setFixedWidth(170);
   slider_->setAccessibleName(tr("Threshold of the treatment"));
   box_ = new NumberBox(this);
-  box_->setFixedWidth(110);
+  box_->setFixedWidth(96);
   box_->setAccessibleName(tr("Threshold of the treatment, typed"));
   choice_ = new QuietCombo(this);
   result_ = new MutedLabel({}, this);
