@@ -116,21 +116,36 @@ LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const Sh
 Result<std::vector<VertexId>> bridge_between(const Mesh& mesh, const Curvatures& curvatures,
                                              const SharpLines& lines, const Line& a, const Line& b,
                                              double angle) {
-  if (a.closed || b.closed) return fail("A closed line has no end to merge at.");
-  const auto ends = [](const Line& line) {
-    return std::vector<VertexId>{line.vertices.front(), line.vertices.back()};
-  };
+  std::vector<VertexId> ends[2];
+  for (const Line* line : {&a, &b}) {
+    for (const VertexId v : {line->vertices.front(), line->vertices.back()})
+      if (!line->closed && !mesh.is_border(v) && sharp_edges_at(mesh, lines, v).size() == 1)
+        ends[line == &b].push_back(v);
+    if (ends[line == &b].empty())
+      return fail("Line " + std::to_string(line->id) +
+                  " has no loose end to merge at: it is closed, or ends at other lines or the "
+                  "border.");
+  }
   double straight = std::numeric_limits<double>::infinity();
-  for (const VertexId v : ends(a))
-    for (const VertexId w : ends(b))
+  for (const VertexId v : ends[0])
+    for (const VertexId w : ends[1])
       straight = std::min(straight, (mesh.point(v) - mesh.point(w)).norm());
+  // Not through other lines: they would be parted.
+  const auto may_pass = [&](VertexId v) {
+    return sharp_edges_at(mesh, lines, v).empty() ||
+           std::find(ends[0].begin(), ends[0].end(), v) != ends[0].end() ||
+           std::find(ends[1].begin(), ends[1].end(), v) != ends[1].end();
+  };
   constexpr double detour = 4.0;
-  std::vector<VertexId> path = cheapest_path(mesh, curvatures, ends(a), ends(b), {angle * degree},
-                                             detour * straight + mesh.mean_edge_length(),
-                                             [&](EdgeId e) { return !lines.is_sharp(e); });
+  std::vector<VertexId> path = cheapest_path(
+      mesh, curvatures, ends[0], ends[1], {angle * degree},
+      detour * straight + mesh.mean_edge_length(), [&](EdgeId e) {
+        return !lines.is_sharp(e) && may_pass(mesh.edge(e)[0]) && may_pass(mesh.edge(e)[1]);
+      });
   if (path.size() < 2)
     return fail("Lines " + std::to_string(a.id) + " and " + std::to_string(b.id) +
-                " cannot be merged: no path joins their ends within four times the straight way.");
+                " cannot be merged: no path that meets no other line joins their ends within four "
+                "times the straight way.");
   return path;
 }
 

@@ -25,9 +25,9 @@ enum class LineEnds { both, first, last };
 LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
                         const Line& line, LineEnds ends, double angle, int candidates);
 
-/// The cheapest path from an end of `a` to an end of `b` through edges on no line; `angle`
-/// (degrees): how sharp an edge has to be to draw the path. Errors: a closed line has no end, no
-/// path within four times the straight way.
+/// The cheapest path from a loose end of `a` to a loose end of `b` that meets no other line;
+/// `angle` (degrees): how sharp an edge has to be to draw the path. Errors: a line without loose
+/// end, no path within four times the straight way.
 Result<std::vector<VertexId>> bridge_between(const Mesh& mesh, const Curvatures& curvatures,
                                              const SharpLines& lines, const Line& a, const Line& b,
                                              double angle);

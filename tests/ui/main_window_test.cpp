@@ -199,7 +199,7 @@ TEST_F(MainWindowTest, UndoRedoAndTravel) {
   // The menu names what it would do.
   bool named = false;
   for (const QAction* action : window->findChildren<QAction*>())
-    named = named || action->text().startsWith("Redo: Find sharp lines");
+    named = named || action->text().startsWith("Redo: Simplify");
   EXPECT_TRUE(named);
 }
 

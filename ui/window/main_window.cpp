@@ -171,6 +171,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());
   restoreState(settings.value("window/state").toByteArray());
+  treatment_bar_->hide();  // even where the window was closed during a treatment
+  findChild<QToolBar*>("tools")->show();
   section_bar_->hide();
   refresh_recent();
   refresh_actions();
@@ -422,6 +424,9 @@ void MainWindow::make_actions() {
   section_bar_->toggleViewAction()->setVisible(false);
   addToolBar(section_bar_);
   treatment_bar_->setObjectName("treatment");
+  // It takes the place of the tools while it is there: nothing moves, and it needs the room.
+  connect(treatment_bar_, &QToolBar::visibilityChanged, bar,
+          [this, bar] { bar->setVisible(treatment_bar_->isHidden()); });
   treatment_bar_->toggleViewAction()->setVisible(false);
   addToolBar(treatment_bar_);
   bar->setMinimumHeight(section_bar_->sizeHint().height());  // nothing moves when it comes

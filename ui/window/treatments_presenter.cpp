@@ -424,10 +424,13 @@ void TreatmentsPresenter::show_result() {
     for (const PartitionPtr& p : before.partitions.partitions) area_before += p->area;
     for (const PartitionPtr& p : after.partitions.partitions) area_after += p->area;
     const double change = area_after - area_before;
-    parts << tr("partitions %1 → %2, area %3%4 mm²")
-                 .arg(before.partitions.partitions.size())
-                 .arg(after.partitions.partitions.size())
-                 .arg(change < 0.0 ? "−" : "+", number_text(std::abs(change), 3));
+    QString text = tr("partitions %1 → %2")
+                       .arg(before.partitions.partitions.size())
+                       .arg(after.partitions.partitions.size());
+    constexpr double rounding = 1e-9;
+    if (std::abs(change) > rounding * area_before)
+      text += tr(", area %1%2 mm²").arg(change < 0.0 ? "−" : "+", number_text(std::abs(change), 3));
+    parts << text;
   }
   bar_->set_result(parts.isEmpty() ? tr("nothing changes") : parts.join("; "), false);
 }
@@ -489,8 +492,7 @@ void TreatmentsPresenter::draw() {
     stop();
   };
   view_->set_tool(Tool::path,
-                  tr("Click points of the line; it snaps to sharp edges. Enter or double click "
-                     "ends it, Backspace takes a point back, Esc leaves."));
+                  tr("Click points; snaps to sharp edges. Enter ends, Backspace takes back."));
 }
 
 void TreatmentsPresenter::trim() {
@@ -557,7 +559,7 @@ void TreatmentsPresenter::lock(bool locked) {
 void TreatmentsPresenter::brush(const QString& hint, std::function<void(json)> use) {
   stop();
   on_brushed_ = std::move(use);
-  view_->set_tool(Tool::brush, hint + tr(". [ and ] or Ctrl+wheel change its size, Esc leaves."));
+  view_->set_tool(Tool::brush, hint + tr(". [ and ] change its size."));
 }
 
 // ---- partitions ----
@@ -624,9 +626,9 @@ void TreatmentsPresenter::split_partition() {
     stop();
     run_now(operation);
   };
-  view_->set_tool(Tool::path, tr("Click points from one boundary of partition %1 to another. Enter "
-                                 "or double click parts it, Esc leaves.")
-                                  .arg(id));
+  view_->set_tool(
+      Tool::path,
+      tr("Click from one boundary of partition %1 to another. Enter parts it.").arg(id));
 }
 
 void TreatmentsPresenter::remove_small() {
