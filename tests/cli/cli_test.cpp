@@ -525,6 +525,50 @@ TEST_F(Cli, SegmentTakesItsOptions) {
   EXPECT_EQ(thresholds["find_partitions"]["min_faces"], 7);
 }
 
+TEST_F(Cli, SegmentPreparesTheScanUnlessToldNotTo) {
+  const auto steps = [&](const std::string& results) {
+    std::vector<std::string> names;
+    std::istringstream rows(folder.read(results + "/operations.jsonl"));
+    for (std::string row; std::getline(rows, row);)
+      names.push_back(json::parse(row)["operation"]["operation"]);
+    return names;
+  };
+  const std::string part = small_part();
+  expect_done({"segment", part, "-o", folder.file("all"), "--error-zone", "0.02", "--max-edge",
+               "2.5", "--swap", "--smooth", "1"});
+  EXPECT_EQ(steps("all"),
+            (std::vector<std::string>{"open", "simplify", "swap_edges", "find_sharp_lines",
+                                      "equilateralize", "smooth_curvature", "find_partitions"}));
+  const json thresholds = summary("all")["thresholds"];
+  EXPECT_EQ(thresholds["simplify"]["error_zone"], 0.02);
+  EXPECT_EQ(thresholds["simplify"]["max_edge_length"], 2.5);
+  expect_done({"segment", part, "-o", folder.file("bare"), "--no-prepare"});
+  EXPECT_EQ(steps("bare"),
+            (std::vector<std::string>{"open", "find_sharp_lines", "find_partitions"}));
+}
+
+TEST_F(Cli, ReplayTakesTreatmentsByHand) {
+  const std::string part = small_part();
+  expect_done({"segment", part, "-o", folder.file("first"), "--no-prepare"});
+  const json before = summary("first");
+  ASSERT_GE(before["lines"]["count"], 1);
+  // The lowest id is that of the line found first.
+  std::string text = json{{"operation", "open"}, {"file", part}}.dump() + "\n" +
+                     json{{"operation", "find_sharp_lines"}}.dump() + "\n" +
+                     json{{"operation", "delete_lines"}, {"lines", {1}}}.dump() + "\n" +
+                     json{{"operation", "find_sharp_lines"}}.dump() + "\n";
+  const std::string operations = folder.write("treated.jsonl", text);
+  expect_done({"replay", operations, "-o", folder.file("second")});
+  EXPECT_EQ(summary("second")["lines"]["count"].get<int>(),
+            before["lines"]["count"].get<int>() - 1);
+  // What it wrote replays to the same document.
+  expect_done({"replay", folder.file("second/operations.jsonl"), "-o", folder.file("third")});
+  EXPECT_EQ(summary("third")["document_hash"], summary("second")["document_hash"]);
+  text += json{{"operation", "delete_lines"}, {"lines", {1}}}.dump() + "\n";
+  expect_bad_input({"replay", folder.write("wrong.jsonl", text), "-o", folder.file("fourth")},
+                   "there is no line 1");
+}
+
 TEST_F(Cli, SampleMouldThereAndBack) {
   const std::string mould = folder.file("mould.ply");
   expect_done({"sample", "-o", mould});
