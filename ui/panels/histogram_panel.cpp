@@ -115,6 +115,7 @@ class HistogramPanel::Private {
   HistogramPanel* q;
   Histogram histogram;
   ColourScale scale;
+  HistogramCurve curve;
   Axis axis;
   std::vector<ThresholdHandle> handles;
   int focused = 0;
@@ -173,6 +174,94 @@ class HistogramPanel::Private {
 
   bool with_title() const { return q->height() >= 120; }
 
+  // ---- the second curve ----
+
+  /// Full height of its scale: a readable count.
+  double most_count() const {
+    double most = 1.0;
+    for (const QPointF& point : curve.points) most = std::max(most, point.y());
+    const double step = nice_step(most / 4.0);
+    return step * std::ceil(most / step - 1e-9);
+  }
+
+  static QString tick_text(double count) { return count_text(std::llround(count)); }
+
+  int curve_width(const QFontMetrics& metrics) const {
+    return metrics.horizontalAdvance(tick_text(most_count())) + 10;
+  }
+
+  QColor curve_colour() const {
+    const bool dark = q->palette().color(QPalette::Base).lightness() < 128;
+    return dark ? QColor(229, 160, 84) : QColor(178, 92, 10);
+  }
+
+  int curve_y(double count, const QRect& plot) const {
+    return plot.bottom() -
+           static_cast<int>(std::lround(count / most_count() * (plot.height() - 3)));
+  }
+
+  void paint_plateau(QPainter& painter, const QRect& plot) const {
+    if (curve.points.empty() || !curve.plateau) return;
+    const int from = line_x(curve.plateau->first, plot), to = line_x(curve.plateau->second, plot);
+    const QColor base = q->palette().color(QPalette::Base);
+    painter.fillRect(QRect(from, plot.top(), std::max(to - from, 1), plot.height()),
+                     mix(base, curve_colour(), 0.2));
+  }
+
+  void paint_curve(QPainter& painter, const QRect& plot) const {
+    if (curve.points.empty()) return;
+    const QPalette& palette = q->palette();
+    const QFontMetrics metrics(q->font());
+    const QColor colour = curve_colour();
+    QPolygonF line;
+    for (const QPointF& point : curve.points)
+      if (point.x() >= axis.min && point.x() <= axis.max)
+        line << QPointF(line_x(point.x(), plot) + 0.5, curve_y(point.y(), plot) + 0.5);
+    painter.setRenderHint(QPainter::Antialiasing, true);
+    painter.setClipRect(plot);
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(palette.color(QPalette::Base), 3.5));  // a rim, to stand out from the bars
+    painter.drawPolyline(line);
+    painter.setPen(QPen(colour, 1.6));
+    painter.drawPolyline(line);
+    painter.setClipping(false);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+
+    painter.setPen(colour);
+    const double most = most_count();
+    int free_below = plot.top() - metrics.height();
+    for (const double count : {most, most / 2.0, 0.0}) {
+      if (count != std::floor(count)) continue;
+      const int y = curve_y(count, plot);
+      const QRect box(plot.right() + 4, y - metrics.height() / 2, q->width() - plot.right() - 5,
+                      metrics.height());
+      if (box.top() < free_below) continue;
+      painter.drawLine(plot.right() + 1, y, plot.right() + 3, y);
+      painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, tick_text(count));
+      free_below = box.bottom();
+    }
+    const auto write = [&](const QString& text, QRect box, Qt::Alignment alignment) {
+      box = metrics.boundingRect(box, alignment, text);
+      painter.fillRect(box.adjusted(-3, 0, 3, 0), [&] {
+        QColor ground = palette.color(QPalette::Base);
+        ground.setAlpha(200);
+        return ground;
+      }());
+      painter.drawText(box, alignment, text);
+    };
+    const QRect text = plot.adjusted(6, 2, -6, -2);
+    write(curve.label, text, Qt::AlignRight | Qt::AlignTop);
+    if (!curve.plateau) return;
+    const int middle =
+        (line_x(curve.plateau->first, plot) + line_x(curve.plateau->second, plot)) / 2;
+    const int width = metrics.horizontalAdvance(curve.plateau_text);
+    const int room = metrics.horizontalAdvance(curve.label) + 16;
+    const int left = std::clamp(middle - width / 2, text.left(),
+                                std::max(text.left(), text.right() - room - width));
+    write(curve.plateau_text, QRect(left, text.top(), width + 1, metrics.height()),
+          Qt::AlignLeft | Qt::AlignTop);
+  }
+
   /// Decades of the area axis: 10^first to 10^last, as shares.
   std::array<int, 2> decades() const {
     double least = 1.0, most = 0.0;
@@ -200,7 +289,8 @@ class HistogramPanel::Private {
       widest = std::max(widest, metrics.horizontalAdvance(percent_text(std::pow(10.0, d))));
     }
     result.plot.setLeft(margin + widest + 8);
-    result.plot.setRight(q->width() - margin - 6);
+    result.plot.setRight(q->width() - margin - 6 -
+                         (curve.points.empty() ? 0 : std::max(curve_width(metrics) - 6, 0)));
 
     std::vector<int> widths(count), order(count);
     result.with_reading.resize(count);
@@ -591,6 +681,7 @@ class HistogramPanel::Private {
       inside = QRect(low, at.plot.top(), high - low + 1, at.plot.height());
       painter.fillRect(inside, mix(base, highlight, 0.13));
     }
+    paint_plateau(painter, at.plot);
     paint_area_axis(painter, at.plot);
     paint_bars(painter, at.plot, mix(base, palette.color(QPalette::Text), 0.42));
     if (!inside.isEmpty()) {
@@ -598,6 +689,7 @@ class HistogramPanel::Private {
       paint_bars(painter, at.plot, mix(highlight, palette.color(QPalette::Text), 0.1));
       painter.setClipping(false);
     }
+    paint_curve(painter, at.plot);
     paint_strip(painter, at.strip);
     paint_value_axis(painter, at);
     const int count = static_cast<int>(handles.size());
@@ -648,6 +740,13 @@ void HistogramPanel::set_histogram(const Histogram& histogram, const ColourScale
   if (p_->move) p_->move->x = p_->line_x(p_->move->handle, p_->layout().plot);
   update();
 }
+
+void HistogramPanel::set_curve(HistogramCurve curve) {
+  p_->curve = std::move(curve);
+  update();
+}
+
+const HistogramCurve& HistogramPanel::curve() const { return p_->curve; }
 
 void HistogramPanel::set_handles(std::vector<ThresholdHandle> handles) {
   const bool same = std::equal(

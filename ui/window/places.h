@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "ui/view/mesh_view.h"
+
+namespace arris::ui {
+
+/// Zooms to these vertices, and turns the part round first where the surface there faces away.
+void show_place(MeshView& view, const Mesh& mesh, const std::vector<VertexId>& vertices);
+
+}  // namespace arris::ui

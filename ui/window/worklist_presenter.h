@@ -1,0 +1,71 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <QMenu>
+#include <QObject>
+#include <QTimer>
+
+#include "core/guidance/worklist.h"
+#include "ui/panels/worklist_panel.h"
+#include "ui/view/mesh_view.h"
+#include "ui/window/elements_presenter.h"
+#include "ui/window/latest_work.h"
+#include "ui/window/session.h"
+
+namespace arris::ui {
+
+/// What is left to do, gone through one by one: zooms to each, shows the ways to settle it, and
+/// runs the one that is accepted. The list is worked out beside the UI thread once the document has
+/// settled, only while it is shown.
+class WorklistPresenter : public QObject {
+  Q_OBJECT
+ public:
+  WorklistPresenter(Session* session, MeshView* view, ElementsPresenter* elements,
+                    WorklistPanel* panel, QObject* parent);
+
+  void add_actions(QMenu* menu);
+  /// Whether anybody sees the list.
+  void set_shown(bool shown);
+  /// What is on the list; empty while it is being worked out.
+  const std::vector<WorkItem>& items() const { return items_; }
+
+  void next() { step(1); }
+  void previous() { step(-1); }
+  void accept();
+  void dismiss();
+
+ signals:
+  void list_changed();
+  /// The user wants to see the list.
+  void wanted();
+
+ private:
+  void outdate(bool other_mesh);
+  void look();
+  void take(std::vector<WorkItem> items);
+  void list();
+  void step(int by);
+  void show(int row, int choice, bool zoom);
+  void clear_marks();
+  void refresh_buttons();
+  bool can_accept() const;
+
+  Session* session_;
+  MeshView* view_;
+  ElementsPresenter* elements_;
+  WorklistPanel* panel_;
+  LatestWork* work_;
+  QTimer settle_;
+  QAction* accept_action_ = nullptr;
+  bool shown_ = false;
+  bool current_ = false;  // the list is that of the current document
+  bool marked_ = false;   // paths and points in the view are ours
+  int go_to_ = -1;        // the row to go to once the list is there
+  std::vector<WorkItem> items_;
+  std::set<std::string> dismissed_;
+};
+
+}  // namespace arris::ui
