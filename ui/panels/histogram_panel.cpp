@@ -186,8 +186,12 @@ class HistogramPanel::Private {
 
   static QString tick_text(double count) { return count_text(std::llround(count)); }
 
+  /// Room for its scale, the same for most counts so that nothing moves when the curve comes.
   int curve_width(const QFontMetrics& metrics) const {
-    return metrics.horizontalAdvance(tick_text(most_count())) + 10;
+    if (curve.label.isEmpty()) return 0;
+    return std::max(metrics.horizontalAdvance(tick_text(most_count())),
+                    metrics.horizontalAdvance(QStringLiteral("1,000"))) +
+           4;
   }
 
   QColor curve_colour() const {
@@ -209,10 +213,16 @@ class HistogramPanel::Private {
   }
 
   void paint_curve(QPainter& painter, const QRect& plot) const {
-    if (curve.points.empty()) return;
+    if (curve.label.isEmpty()) return;
     const QPalette& palette = q->palette();
     const QFontMetrics metrics(q->font());
     const QColor colour = curve_colour();
+    if (curve.points.empty()) {
+      painter.setPen(muted_text(palette));
+      painter.drawText(plot.adjusted(6, 2, -6, -2), Qt::AlignRight | Qt::AlignTop,
+                       curve.label + QStringLiteral(" …"));
+      return;
+    }
     QPolygonF line;
     for (const QPointF& point : curve.points)
       if (point.x() >= axis.min && point.x() <= axis.max)
@@ -289,8 +299,7 @@ class HistogramPanel::Private {
       widest = std::max(widest, metrics.horizontalAdvance(percent_text(std::pow(10.0, d))));
     }
     result.plot.setLeft(margin + widest + 8);
-    result.plot.setRight(q->width() - margin - 6 -
-                         (curve.points.empty() ? 0 : std::max(curve_width(metrics) - 6, 0)));
+    result.plot.setRight(q->width() - margin - 6 - curve_width(metrics));
 
     std::vector<int> widths(count), order(count);
     result.with_reading.resize(count);
@@ -743,6 +752,7 @@ void HistogramPanel::set_histogram(const Histogram& histogram, const ColourScale
 
 void HistogramPanel::set_curve(HistogramCurve curve) {
   p_->curve = std::move(curve);
+  if (p_->move) p_->move->x = p_->line_x(p_->move->handle, p_->layout().plot);
   update();
 }
 

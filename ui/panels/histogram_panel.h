@@ -33,8 +33,8 @@ struct ThresholdHandle {
 /// A second curve over the same axis, on a scale of its own at the right: what each threshold would
 /// give.
 struct HistogramCurve {
-  QString label;                ///< "lines"
-  std::vector<QPointF> points;  ///< Threshold and count, by increasing threshold; empty: none.
+  QString label;                ///< "lines"; empty: there is no curve.
+  std::vector<QPointF> points;  ///< Threshold and count, by increasing threshold; none: to come.
   std::optional<std::pair<double, double>> plateau;  ///< Where the count hardly changes.
   QString plateau_text;                              ///< "steady from 24° to 31°"
 };

@@ -104,6 +104,13 @@ void WorklistPanel::set_rows(std::vector<WorkRow> rows) {
   setting_ = false;
 }
 
+void WorklistPanel::set_stale(bool stale) {
+  const bool had_focus = tree_->hasFocus() || stale_focus_;
+  stale_focus_ = stale && had_focus;  // a disabled list loses it
+  tree_->setEnabled(!stale);
+  if (!stale && had_focus) tree_->setFocus();
+}
+
 void WorklistPanel::set_summary(const QString& summary, const QString& empty_text) {
   summary_->setText(summary);
   tree_->set_empty_text(empty_text);

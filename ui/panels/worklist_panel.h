@@ -30,6 +30,8 @@ class WorklistPanel : public QWidget {
 
   /// Rows are numbered as they come. None is current then.
   void set_rows(std::vector<WorkRow> rows);
+  /// The rows are those of a moment ago: they stay to be read until the new ones are there.
+  void set_stale(bool stale);
   /// How far the work is; and why the list is empty, where it is.
   void set_summary(const QString& summary, const QString& empty_text);
   /// Makes a row and one of its choices current, without a signal. -1: none.
@@ -64,6 +66,7 @@ class WorklistPanel : public QWidget {
   std::vector<QStringList> choices_;
   int row_ = -1;
   int choice_ = 0;
+  bool stale_focus_ = false;
   bool setting_ = false;  // a change of the current item is not the user's
 };
 

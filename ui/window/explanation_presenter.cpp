@@ -6,6 +6,7 @@
 
 #include "core/guidance/explain.h"
 #include "ui/panels/controls.h"
+#include "ui/window/actions.h"
 
 namespace arris::ui {
 
@@ -48,6 +49,13 @@ ExplanationPresenter::ExplanationPresenter(Session* session, MeshView* view,
     if (!session_->is_previewing()) refresh();
   });
   refresh();
+}
+
+void ExplanationPresenter::add_actions(QMenu* menu) {
+  connect(action(menu, tr("&Explain what is clicked"), QKeySequence("X"),
+                 tr("Why the edge and the face clicked last are, or are not, on a line and in a "
+                    "partition")),
+          &QAction::triggered, this, &ExplanationPresenter::wanted);
 }
 
 void ExplanationPresenter::set_shown(bool shown) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <QMenu>
 #include <QObject>
 
 #include "ui/panels/explanation_panel.h"
@@ -18,6 +19,7 @@ class ExplanationPresenter : public QObject {
  public:
   ExplanationPresenter(Session* session, MeshView* view, ExplanationPanel* panel, QObject* parent);
 
+  void add_actions(QMenu* menu);
   void set_shown(bool shown);
   /// Brings the panel up and explains what was picked.
   void explain(const Pick& pick);

@@ -432,6 +432,7 @@ void MainWindow::make_actions() {
   QMenu* check = menuBar()->addMenu(tr("&Check"));
   worklist_->add_actions(check);
   check->addSeparator();
+  explanations_->add_actions(check);
   stability_->add_actions(check);
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));

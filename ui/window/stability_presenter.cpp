@@ -103,9 +103,11 @@ void StabilityPresenter::refresh() {
   if (wanted == basis_) return;
   basis_ = std::move(wanted);
   work_->cancel();
-  histogram_->set_curve({});
-  if (basis_.kind == Kind::none) return;
+  HistogramCurve to_come;
   const bool of_lines = basis_.kind != Kind::partitions;
+  if (basis_.kind != Kind::none) to_come.label = of_lines ? tr("lines") : tr("partitions");
+  histogram_->set_curve(std::move(to_come));
+  if (basis_.kind == Kind::none) return;
   const SharpLines lines = of_lines ? SharpLines() : session_->current().document.lines;
   work_->start(
       [basis = basis_, lines, of_lines](const Context& context) {
@@ -130,13 +132,13 @@ void StabilityPresenter::refresh() {
       },
       [this, kind = basis_.kind](Result<Found> found) {
         if (!found) return;
+        HistogramCurve curve;
+        curve.label = histogram_->curve().label;
         const auto on_axis = [kind](double threshold) {
           return kind == Kind::lines_by_ikabs
                      ? ikabs_of_straight_edge(threshold * std::numbers::pi / 180.0)
                      : threshold;
         };
-        HistogramCurve curve;
-        curve.label = kind == Kind::partitions ? tr("partitions") : tr("lines");
         for (const StabilityPoint& point : found->curve.points)
           curve.points.emplace_back(on_axis(point.threshold), static_cast<double>(point.count));
         if (found->plateau) {

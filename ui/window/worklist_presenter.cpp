@@ -33,7 +33,7 @@ QString title_of(WorkKind kind) {
 }
 
 QString choice_text(const Continuation& way) {
-  const QString length = QString::fromStdString(number_text(way.length, 3)) + " mm";
+  const QString length = arris::ui::number_text(way.length, 3) + " mm";
   const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
                         : way.arrives ? QObject::tr("to the border")
                                       : QObject::tr("fading out");
@@ -118,8 +118,12 @@ void WorklistPresenter::outdate(bool other_mesh) {
   clear_marks();
   if (other_mesh) dismissed_.clear();  // its vertices are others
   current_ = false;
-  items_.clear();
-  list();
+  if (other_mesh) {
+    items_.clear();
+    list();
+  }
+  panel_->set_stale(true);
+  refresh_summary();
   if (shown_) settle_.start(settle_time);
 }
 
@@ -138,6 +142,7 @@ void WorklistPresenter::look() {
 
 void WorklistPresenter::take(std::vector<WorkItem> items) {
   current_ = true;
+  panel_->set_stale(false);
   items_ = std::move(items);
   std::erase_if(items_, [this](const WorkItem& item) { return dismissed_.contains(key_of(item)); });
   list();
@@ -146,7 +151,6 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
 }
 
 void WorklistPresenter::list() {
-  const Document& document = session_->current().document;
   std::vector<WorkRow> rows;
   for (const WorkItem& item : items_) {
     WorkRow row{title_of(item.kind), QString::fromStdString(item.sentence), {}};
@@ -154,6 +158,11 @@ void WorklistPresenter::list() {
     rows.push_back(std::move(row));
   }
   panel_->set_rows(std::move(rows));
+  refresh_summary();
+}
+
+void WorklistPresenter::refresh_summary() {
+  const Document& document = session_->current().document;
   QString summary, empty;
   if (document.empty()) {
     empty = tr("Open a scan first.");
@@ -174,13 +183,12 @@ void WorklistPresenter::list() {
   }
   panel_->set_summary(summary, empty);
   refresh_buttons();
-  emit list_changed();
 }
 
 void WorklistPresenter::step(int by) {
   if (session_->current().document.empty()) return;
   if (!shown_ || !current_) {
-    go_to_ = 0;
+    go_to_ = std::max(go_to_, 0);
     emit wanted();
     if (!current_) return;
     go_to_ = -1;

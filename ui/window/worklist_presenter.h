@@ -29,8 +29,9 @@ class WorklistPresenter : public QObject {
   void add_actions(QMenu* menu);
   /// Whether anybody sees the list.
   void set_shown(bool shown);
-  /// What is on the list; empty while it is being worked out.
+  /// What is on the list; while is_current() is false, what was on it a moment ago.
   const std::vector<WorkItem>& items() const { return items_; }
+  bool is_current() const { return current_; }
 
   void next() { step(1); }
   void previous() { step(-1); }
@@ -38,7 +39,6 @@ class WorklistPresenter : public QObject {
   void dismiss();
 
  signals:
-  void list_changed();
   /// The user wants to see the list.
   void wanted();
 
@@ -47,6 +47,7 @@ class WorklistPresenter : public QObject {
   void look();
   void take(std::vector<WorkItem> items);
   void list();
+  void refresh_summary();
   void step(int by);
   void show(int row, int choice, bool zoom);
   void clear_marks();
