@@ -207,9 +207,9 @@ class HistogramPanel::Private {
   void paint_plateau(QPainter& painter, const QRect& plot) const {
     if (curve.points.empty() || !curve.plateau) return;
     const int from = line_x(curve.plateau->first, plot), to = line_x(curve.plateau->second, plot);
-    const QColor base = q->palette().color(QPalette::Base);
-    painter.fillRect(QRect(from, plot.top(), std::max(to - from, 1), plot.height()),
-                     mix(base, curve_colour(), 0.2));
+    QColor colour = curve_colour();
+    colour.setAlpha(50);
+    painter.fillRect(QRect(from, plot.top(), std::max(to - from, 1), plot.height()), colour);
   }
 
   void paint_curve(QPainter& painter, const QRect& plot) const {
@@ -690,7 +690,6 @@ class HistogramPanel::Private {
       inside = QRect(low, at.plot.top(), high - low + 1, at.plot.height());
       painter.fillRect(inside, mix(base, highlight, 0.13));
     }
-    paint_plateau(painter, at.plot);
     paint_area_axis(painter, at.plot);
     paint_bars(painter, at.plot, mix(base, palette.color(QPalette::Text), 0.42));
     if (!inside.isEmpty()) {
@@ -698,6 +697,7 @@ class HistogramPanel::Private {
       paint_bars(painter, at.plot, mix(highlight, palette.color(QPalette::Text), 0.1));
       painter.setClipping(false);
     }
+    paint_plateau(painter, at.plot);
     paint_curve(painter, at.plot);
     paint_strip(painter, at.strip);
     paint_value_axis(painter, at);

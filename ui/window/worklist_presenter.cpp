@@ -242,9 +242,9 @@ bool WorklistPresenter::can_accept() const {
 void WorklistPresenter::accept() {
   if (!can_accept()) return;
   const int row = panel_->current_row();
+  const auto ways = ways_of(items_[static_cast<std::size_t>(row)]);
   std::vector<Operation> operations;
-  for (const std::vector<VertexId>& path : ways_of(items_[static_cast<std::size_t>(
-           row)])[static_cast<std::size_t>(panel_->current_choice())])
+  for (const std::vector<VertexId>& path : ways[static_cast<std::size_t>(panel_->current_choice())])
     operations.push_back({"draw_line", {{"vertices", path}}});
   go_to_ = row;  // what follows moves up
   session_->run(std::move(operations));
