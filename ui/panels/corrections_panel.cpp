@@ -84,8 +84,7 @@ void CorrectionsPanel::set_rows(std::vector<CorrectionRow> rows) {
     auto* item = new QTreeWidgetItem(list_, {text, row.state_text});
     item->setData(0, id_role, row.id);
     item->setData(0, state_role, static_cast<int>(row.state));
-    item->setTextAlignment(1, Qt::AlignTop | Qt::AlignLeft);
-    item->setTextAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+    if (!row.message.isEmpty()) item->setTextAlignment(1, Qt::AlignTop | Qt::AlignLeft);
     if (row.id == before) list_->setCurrentItem(item);
   }
   refresh_colours();

@@ -11,6 +11,7 @@ namespace arris::ui {
 ExplanationPanel::ExplanationPanel(QWidget* parent)
     : QWidget(parent), browser_(new QTextBrowser(this)) {
   browser_->setOpenLinks(false);
+  browser_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   browser_->setAccessibleName(tr("Explanation"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
@@ -50,14 +51,14 @@ void ExplanationPanel::refresh() {
     if (section.rows.empty()) continue;
     html += QStringLiteral(
                 "<table width='100%' cellspacing='0' cellpadding='2'>"
-                "<tr style='color:%1'><td>%2</td><td align='right'>%3</td><td align='right'>%4</td>"
+                "<tr style='color:%1'><td width='42%'>%2</td><td align='right'>%3</td><td align='right'>%4</td>"
                 "<td align='right'>%5</td></tr>")
                 .arg(muted, tr("Test"), tr("Value"), tr("Threshold"), tr("Result"));
     for (const ExplanationRow& row : section.rows) {
       const QString result = row.passed ? tr("✓ passed") : tr("✗ failed");
       html +=
           QStringLiteral(
-              "<tr><td><b>%1</b></td><td align='right'>%2</td><td align='right'>%3</td>"
+              "<tr><td>%1</td><td align='right'>%2</td><td align='right'>%3</td>"
               "<td align='right'><span style='white-space:nowrap%4'>%5</span></td></tr>"
               "<tr><td colspan='4' style='color:%6; padding-bottom:6px'>%7</td></tr>")
               .arg(row.name.toHtmlEscaped(), row.value.toHtmlEscaped(),

@@ -4,6 +4,7 @@
 
 #include <QHeaderView>
 #include <QPainter>
+#include <QStyle>
 #include <QStyledItemDelegate>
 
 #include "ui/panels/controls.h"
@@ -27,8 +28,8 @@ class Delegate : public QStyledItemDelegate {
       return {metrics.horizontalAdvance(styled.text) + 2 * padding, metrics.height() + padding};
     int depth = tree_->rootIsDecorated() ? 1 : 0;
     for (QModelIndex up = index.parent(); up.isValid(); up = up.parent()) ++depth;
-    const int width =
-        std::max(tree_->columnWidth(0) - depth * tree_->indentation() - 2 * padding, 40);
+    const int margins = 2 * (tree_->style()->pixelMetric(QStyle::PM_FocusFrameHMargin) + 1);
+    const int width = std::max(tree_->columnWidth(0) - depth * tree_->indentation() - margins, 40);
     const QRect box =
         metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, styled.text);
     return {width, box.height() + padding};

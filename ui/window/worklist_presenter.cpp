@@ -1,6 +1,7 @@
 #include "ui/window/worklist_presenter.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/number_text.h"
@@ -37,7 +38,7 @@ QString choice_text(const Continuation& way) {
   const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
                         : way.arrives ? QObject::tr("to the border")
                                       : QObject::tr("fading out");
-  return QObject::tr("%1 %2, score %3 %")
+  return QObject::tr("%1 %2, %3 %")
       .arg(length, where, QString::fromStdString(fixed_text(100.0 * way.score, 0)));
 }
 
@@ -74,7 +75,10 @@ WorklistPresenter::WorklistPresenter(Session* session, MeshView* view, ElementsP
   settle_.setSingleShot(true);
   connect(&settle_, &QTimer::timeout, this, &WorklistPresenter::look);
   connect(session_, &Session::changed, this, &WorklistPresenter::outdate);
-  connect(session_, &Session::opened, this, [this] { dismissed_.clear(); });
+  connect(session_, &Session::opened, this, [this] {
+    dismissed_.clear();
+    leaks_.clear();
+  });
   connect(session_, &Session::failed, this, [this] { go_to_ = -1; });
   connect(session_, &Session::busy_changed, this, &WorklistPresenter::refresh_buttons);
   connect(view_, &MeshView::tool_changed, this, [this] { clear_marks(); });
@@ -116,7 +120,10 @@ void WorklistPresenter::set_shown(bool shown) {
 void WorklistPresenter::outdate(bool other_mesh) {
   work_->cancel();
   clear_marks();
-  if (other_mesh) dismissed_.clear();  // its vertices are others
+  if (other_mesh) {  // its vertices are others
+    dismissed_.clear();
+    leaks_.clear();
+  }
   current_ = false;
   if (other_mesh) {
     items_.clear();
@@ -144,6 +151,16 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
   current_ = true;
   panel_->set_stale(false);
   items_ = std::move(items);
+  // Lines drawn since the partitions were found part them already: what leaks can only be told once
+  // they are found again. Until then the leaks known before are gone on with.
+  if (partitions_out_of_date()) {
+    std::erase_if(items_, [](const WorkItem& item) { return item.kind == WorkKind::leak; });
+    items_.insert(items_.begin(), leaks_.begin(), leaks_.end());
+  } else {
+    leaks_.clear();
+    std::copy_if(items_.begin(), items_.end(), std::back_inserter(leaks_),
+                 [](const WorkItem& item) { return item.kind == WorkKind::leak; });
+  }
   std::erase_if(items_, [this](const WorkItem& item) { return dismissed_.contains(key_of(item)); });
   list();
   if (const int row = std::exchange(go_to_, -1); row >= 0 && !items_.empty())
@@ -179,6 +196,8 @@ void WorklistPresenter::refresh_summary() {
             .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)), left);
     if (!dismissed_.empty())
       summary += tr(" (%1 dismissed)").arg(count_text(static_cast<qint64>(dismissed_.size())));
+    if (partitions_out_of_date())
+      summary += tr(". Lines have changed since the partitions were found: F5 finds them again.");
     empty = current_ ? tr("Nothing is left to do.") : tr("Looking for what is left …");
   }
   panel_->set_summary(summary, empty);
@@ -247,6 +266,8 @@ void WorklistPresenter::accept() {
   for (const std::vector<VertexId>& path : ways[static_cast<std::size_t>(panel_->current_choice())])
     operations.push_back({"draw_line", {{"vertices", path}}});
   go_to_ = row;  // what follows moves up
+  const std::string settled = key_of(items_[static_cast<std::size_t>(row)]);
+  std::erase_if(leaks_, [&](const WorkItem& leak) { return key_of(leak) == settled; });
   session_->run(std::move(operations));
 }
 
@@ -258,6 +279,11 @@ void WorklistPresenter::dismiss() {
   clear_marks();
   list();
   if (!items_.empty()) show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
+}
+
+bool WorklistPresenter::partitions_out_of_date() const {
+  const std::optional<Step>& step = session_->current().document.find_partitions;
+  return step && step->out_of_date;
 }
 
 void WorklistPresenter::clear_marks() {

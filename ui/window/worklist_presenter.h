@@ -53,6 +53,7 @@ class WorklistPresenter : public QObject {
   void clear_marks();
   void refresh_buttons();
   bool can_accept() const;
+  bool partitions_out_of_date() const;
 
   Session* session_;
   MeshView* view_;
@@ -66,6 +67,8 @@ class WorklistPresenter : public QObject {
   bool marked_ = false;   // paths and points in the view are ours
   int go_to_ = -1;        // the row to go to once the list is there
   std::vector<WorkItem> items_;
+  std::vector<WorkItem>
+      leaks_;  // of when the partitions were last up to date, but for those closed
   std::set<std::string> dismissed_;
 };
 
