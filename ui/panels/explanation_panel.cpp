@@ -51,7 +51,8 @@ void ExplanationPanel::refresh() {
     if (section.rows.empty()) continue;
     html += QStringLiteral(
                 "<table width='100%' cellspacing='0' cellpadding='2'>"
-                "<tr style='color:%1'><td width='42%'>%2</td><td align='right'>%3</td><td align='right'>%4</td>"
+                "<tr style='color:%1; white-space:nowrap'><td width='38%'>%2</td><td "
+                "align='right'>%3</td><td align='right'>%4</td>"
                 "<td align='right'>%5</td></tr>")
                 .arg(muted, tr("Test"), tr("Value"), tr("Threshold"), tr("Result"));
     for (const ExplanationRow& row : section.rows) {

@@ -176,12 +176,12 @@ class HistogramPanel::Private {
 
   // ---- the second curve ----
 
-  /// Full height of its scale: a readable count.
+  /// Full height of its scale, which is logarithmic as the bars are: halving the count looks alike
+  /// whatever the count.
   double most_count() const {
     double most = 1.0;
     for (const QPointF& point : curve.points) most = std::max(most, point.y());
-    const double step = nice_step(most / 4.0);
-    return step * std::ceil(most / step - 1e-9);
+    return 1.1 * most;
   }
 
   static QString tick_text(double count) { return count_text(std::llround(count)); }
@@ -200,8 +200,8 @@ class HistogramPanel::Private {
   }
 
   int curve_y(double count, const QRect& plot) const {
-    return plot.bottom() -
-           static_cast<int>(std::lround(count / most_count() * (plot.height() - 3)));
+    const double share = std::log10(1.0 + count) / std::log10(1.0 + most_count());
+    return plot.bottom() - static_cast<int>(std::lround(share * (plot.height() - 3)));
   }
 
   void paint_plateau(QPainter& painter, const QRect& plot) const {
@@ -239,16 +239,16 @@ class HistogramPanel::Private {
 
     painter.setPen(colour);
     const double most = most_count();
-    int free_below = plot.top() - metrics.height();
-    for (const double count : {most, most / 2.0, 0.0}) {
-      if (count != std::floor(count)) continue;
+    // 0 at the bottom, then powers of ten as far as they have room.
+    int free_above = q->height();
+    for (double count = 0.0; count <= most; count = count > 0.0 ? 10.0 * count : 1.0) {
       const int y = curve_y(count, plot);
       const QRect box(plot.right() + 4, y - metrics.height() / 2, q->width() - plot.right() - 5,
                       metrics.height());
-      if (box.top() < free_below) continue;
       painter.drawLine(plot.right() + 1, y, plot.right() + 3, y);
+      if (box.bottom() > free_above) continue;
       painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, tick_text(count));
-      free_below = box.bottom();
+      free_above = box.top();
     }
     const auto write = [&](const QString& text, QRect box, Qt::Alignment alignment) {
       box = metrics.boundingRect(box, alignment, text);

@@ -153,10 +153,13 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
   items_ = std::move(items);
   // Lines drawn since the partitions were found part them already: what leaks can only be told once
   // they are found again. Until then the leaks known before are gone on with.
+  const std::optional<Step>& lines = session_->current().document.find_sharp_lines;
   if (partitions_out_of_date()) {
+    if (lines != leaks_lines_) leaks_.clear();  // through lines that are no more
     std::erase_if(items_, [](const WorkItem& item) { return item.kind == WorkKind::leak; });
     items_.insert(items_.begin(), leaks_.begin(), leaks_.end());
   } else {
+    leaks_lines_ = lines;
     leaks_.clear();
     std::copy_if(items_.begin(), items_.end(), std::back_inserter(leaks_),
                  [](const WorkItem& item) { return item.kind == WorkKind::leak; });
@@ -196,7 +199,7 @@ void WorklistPresenter::refresh_summary() {
             .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)), left);
     if (!dismissed_.empty())
       summary += tr(" (%1 dismissed)").arg(count_text(static_cast<qint64>(dismissed_.size())));
-    if (partitions_out_of_date())
+    if (current_ && partitions_out_of_date())
       summary += tr(". Lines have changed since the partitions were found: F5 finds them again.");
     empty = current_ ? tr("Nothing is left to do.") : tr("Looking for what is left …");
   }

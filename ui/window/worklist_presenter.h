@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,6 +70,7 @@ class WorklistPresenter : public QObject {
   std::vector<WorkItem> items_;
   std::vector<WorkItem>
       leaks_;  // of when the partitions were last up to date, but for those closed
+  std::optional<Step> leaks_lines_;  // as the lines were found then
   std::set<std::string> dismissed_;
 };
 
