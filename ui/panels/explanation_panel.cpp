@@ -51,9 +51,9 @@ void ExplanationPanel::refresh() {
     if (section.rows.empty()) continue;
     html += QStringLiteral(
                 "<table width='100%' cellspacing='0' cellpadding='2'>"
-                "<tr style='color:%1; white-space:nowrap'><td width='38%'>%2</td><td "
-                "align='right'>%3</td><td align='right'>%4</td>"
-                "<td align='right'>%5</td></tr>")
+                "<tr style='color:%1'><td width='36%'>%2</td><td "
+                "align='right'>%3</td><td width='22%' align='right'>%4</td>"
+                "<td width='21%' align='right'>%5</td></tr>")
                 .arg(muted, tr("Test"), tr("Value"), tr("Threshold"), tr("Result"));
     for (const ExplanationRow& row : section.rows) {
       const QString result = row.passed ? tr("✓ passed") : tr("✗ failed");

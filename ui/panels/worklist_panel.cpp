@@ -108,6 +108,9 @@ void WorklistPanel::set_stale(bool stale) {
   const bool had_focus = tree_->hasFocus() || stale_focus_;
   stale_focus_ = stale && had_focus;  // a disabled list loses it
   tree_->setEnabled(!stale);
+  setting_ = true;
+  if (stale) tree_->clearSelection();  // greyed on the colour of a selection nothing can be read
+  setting_ = false;
   if (!stale && had_focus) tree_->setFocus();
 }
 
