@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
   const QCommandLineOption sample("sample", "Open the sample mould.");
   const QCommandLineOption screenshot("screenshot", "Open, draw, save the picture and exit.",
                                       "OUT.png");
-  const QCommandLineOption field("field", "Field to show: K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".", "F");
+  const QCommandLineOption field(
+      "field", "Field to show: K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".", "F");
   const QCommandLineOption size("size", "Size of the picture in pixels (1600x1200).", "WxH",
                                 "1600x1200");
   const QCommandLineOption run("run", "Find sharp lines and partitions after opening.");
@@ -69,7 +70,8 @@ int main(int argc, char** argv) {
     wanted_field = find_field(parser.value(field).toStdString());
     if (!wanted_field)
       return complain(
-          "--field " + parser.value(field) + " is not one of K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".",
+          "--field " + parser.value(field) +
+              " is not one of K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".",
           bad_usage);
   }
   const QStringList parts = parser.value(size).split('x');

@@ -116,21 +116,36 @@ LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const Sh
 Result<std::vector<VertexId>> bridge_between(const Mesh& mesh, const Curvatures& curvatures,
                                              const SharpLines& lines, const Line& a, const Line& b,
                                              double angle) {
-  if (a.closed || b.closed) return fail("A closed line has no end to merge at.");
-  const auto ends = [](const Line& line) {
-    return std::vector<VertexId>{line.vertices.front(), line.vertices.back()};
-  };
+  std::vector<VertexId> ends[2];
+  for (const Line* line : {&a, &b}) {
+    for (const VertexId v : {line->vertices.front(), line->vertices.back()})
+      if (!line->closed && !mesh.is_border(v) && sharp_edges_at(mesh, lines, v).size() == 1)
+        ends[line == &b].push_back(v);
+    if (ends[line == &b].empty())
+      return fail("Line " + std::to_string(line->id) +
+                  " has no loose end to merge at: it is closed, or ends at other lines or the "
+                  "border.");
+  }
   double straight = std::numeric_limits<double>::infinity();
-  for (const VertexId v : ends(a))
-    for (const VertexId w : ends(b))
+  for (const VertexId v : ends[0])
+    for (const VertexId w : ends[1])
       straight = std::min(straight, (mesh.point(v) - mesh.point(w)).norm());
+  // Not through other lines: they would be parted.
+  const auto may_pass = [&](VertexId v) {
+    return sharp_edges_at(mesh, lines, v).empty() ||
+           std::find(ends[0].begin(), ends[0].end(), v) != ends[0].end() ||
+           std::find(ends[1].begin(), ends[1].end(), v) != ends[1].end();
+  };
   constexpr double detour = 4.0;
-  std::vector<VertexId> path = cheapest_path(mesh, curvatures, ends(a), ends(b), {angle * degree},
-                                             detour * straight + mesh.mean_edge_length(),
-                                             [&](EdgeId e) { return !lines.is_sharp(e); });
+  std::vector<VertexId> path = cheapest_path(
+      mesh, curvatures, ends[0], ends[1], {angle * degree},
+      detour * straight + mesh.mean_edge_length(), [&](EdgeId e) {
+        return !lines.is_sharp(e) && may_pass(mesh.edge(e)[0]) && may_pass(mesh.edge(e)[1]);
+      });
   if (path.size() < 2)
     return fail("Lines " + std::to_string(a.id) + " and " + std::to_string(b.id) +
-                " cannot be merged: no path joins their ends within four times the straight way.");
+                " cannot be merged: no path that meets no other line joins their ends within four "
+                "times the straight way.");
   return path;
 }
 
@@ -189,6 +204,32 @@ std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
     });
   std::sort(found.begin(), found.end());
   return found;
+}
+
+VertexId nearest_on(const Mesh& mesh, const Line& line, const Point& point) {
+  return *std::min_element(line.vertices.begin(), line.vertices.end(), [&](VertexId a, VertexId b) {
+    return (mesh.point(a) - point).squaredNorm() < (mesh.point(b) - point).squaredNorm();
+  });
+}
+
+std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, VertexId at,
+                                            double distance) {
+  const std::vector<VertexId>& path = line.vertices;
+  const auto place = std::find(path.begin(), path.end(), at) - path.begin();
+  constexpr std::ptrdiff_t least_edges = 2;
+  const auto walk = [&](std::ptrdiff_t step) {
+    double length = 0.0;
+    std::ptrdiff_t k = place;
+    const std::ptrdiff_t end = step < 0 ? 0 : static_cast<std::ptrdiff_t>(path.size()) - 1;
+    while (k != end && (std::abs(k - place) < least_edges || length < 2.0 * distance)) {
+      length += (mesh.point(path[static_cast<std::size_t>(k + step)]) -
+                 mesh.point(path[static_cast<std::size_t>(k)]))
+                    .norm();
+      k += step;
+    }
+    return path[static_cast<std::size_t>(k)];
+  };
+  return {walk(-1), walk(1)};
 }
 
 std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region,

@@ -25,9 +25,9 @@ enum class LineEnds { both, first, last };
 LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
                         const Line& line, LineEnds ends, double angle, int candidates);
 
-/// The cheapest path from an end of `a` to an end of `b` through edges on no line; `angle`
-/// (degrees): how sharp an edge has to be to draw the path. Errors: a closed line has no end, no
-/// path within four times the straight way.
+/// The cheapest path from a loose end of `a` to a loose end of `b` that meets no other line;
+/// `angle` (degrees): how sharp an edge has to be to draw the path. Errors: a line without loose
+/// end, no path within four times the straight way.
 Result<std::vector<VertexId>> bridge_between(const Mesh& mesh, const Curvatures& curvatures,
                                              const SharpLines& lines, const Line& a, const Line& b,
                                              double angle);
@@ -51,6 +51,15 @@ LineChanges remove_path(const Mesh& mesh, const SharpLines& lines,
 /// are not on `path`: what a deletion holds down when lines are found again (document.md, rule 6).
 std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
                                const std::vector<VertexId>& path);
+
+/// The vertex of a line nearest to a point (tie: the first along it).
+VertexId nearest_on(const Mesh& mesh, const Line& line, const Point& point);
+
+/// The stretch of a line on both sides of its vertex `at` that gives way when that is moved by
+/// `distance` (mm): twice as far along the line, and at least two edges, up to the line's ends.
+/// First and last vertex of the stretch.
+std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, VertexId at,
+                                            double distance);
 
 /// A region brushed on the surface: the vertices that are joined to one of the stroke by edges, all
 /// of which lie within `radius` (mm) of a vertex of the stroke.

@@ -21,60 +21,12 @@
 
 #include "core/mesh/write_ply.h"
 #include "tests/support/meshes.h"
+#include "tests/ui/window_fixture.h"
 #include "ui/panels/element_table.h"
 #include "ui/panels/history_panel.h"
-#include "ui/window/main_window.h"
 
 namespace arris::ui {
 namespace {
-
-constexpr int patience = 60000;  // ms
-
-class MainWindowTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    QStandardPaths::setTestModeEnabled(true);
-    QApplication::setOrganizationName("arris-test");
-    QSettings().clear();
-    QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
-    window = std::make_unique<MainWindow>();
-    window->resize(1200, 800);
-    window->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
-    window->activateWindow();
-  }
-
-  void open_sample() {
-    window->open_sample();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !document().empty() && idle(); }, patience));
-    QTest::qWait(50);
-  }
-  void TearDown() override {
-    window->session().mark_saved();  // nobody is there to answer
-    window->close();
-  }
-
-  const Document& document() const { return window->session().current().document; }
-  const Document& shown() const { return window->session().shown().document; }
-  bool idle() const { return !window->session().busy(); }
-  std::uint32_t rows() const {
-    return static_cast<std::uint32_t>(window->session().history().entries().size());
-  }
-  void run_both() {
-    QTest::keyClick(window.get(), Qt::Key_F5);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
-  }
-  /// Widget position where `wanted` holds for the pick, searched over the view.
-  std::optional<QPoint> find(const std::function<bool(const Pick&)>& wanted) {
-    MeshView& view = window->view();
-    for (int y = 4; y < view.height(); y += 6)
-      for (int x = 4; x < view.width(); x += 6)
-        if (const auto pick = view.pick({x, y}); pick && wanted(*pick)) return QPoint(x, y);
-    return std::nullopt;
-  }
-
-  std::unique_ptr<MainWindow> window;
-};
 
 TEST_F(MainWindowTest, OpensTheSampleAndDrawsIt) {
   open_sample();
@@ -247,7 +199,7 @@ TEST_F(MainWindowTest, UndoRedoAndTravel) {
   // The menu names what it would do.
   bool named = false;
   for (const QAction* action : window->findChildren<QAction*>())
-    named = named || action->text().startsWith("Redo: Find sharp lines");
+    named = named || action->text().startsWith("Redo: Simplify");
   EXPECT_TRUE(named);
 }
 

@@ -37,7 +37,7 @@ const QColor ghost_colour(0, 214, 236);
 /// where the two differ much the face's is taken.
 constexpr const char* normal_code = R"(
   //VTK::Normal::Impl
-  float cutRim = max(fwidth(beyondVS), 1e-30);
+  float cutRim = clamp(fwidth(beyondVS), 1e-30, cutMost);  // thin on walls seen edge-on
   vec3 faceNormal = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));
   if (faceNormal.z < 0.0) faceNormal = -faceNormal;
   float agreement = dot(faceNormal, normalVCVSOutput);
@@ -46,8 +46,7 @@ constexpr const char* normal_code = R"(
 )";
 
 /// Shades without ever changing a hue, and full colour where the surface faces the viewer: colours
-/// on the part are those of the scalar bar. The back of the part is a dull grey. A double rim
-/// shows where a section cuts, whatever the colours there.
+/// on the part are those of the scalar bar. The back of the part is a dull grey.
 constexpr const char* light_code = R"(
   if (beyondVS > 0.0) discard;
   float key = max(dot(normalVCVSOutput, vec3(-0.38, 0.48, 0.79)), 0.0);
@@ -58,10 +57,17 @@ constexpr const char* light_code = R"(
   vec3 shaded = diffuseColor * mix(bare, coloured, colourShare);
   shaded += (1.0 - colourShare) * 0.10 * pow(key, 24.0);
   if (!gl_FrontFacing) shaded = vec3(0.47, 0.48, 0.52) * (0.35 + 0.65 * head);
-  float fromCut = -beyondVS / cutRim - cutRimWidth;
-  shaded = mix(vec3(1.0), shaded, smoothstep(cutRimWidth, cutRimWidth + 0.8, fromCut));
-  shaded = mix(vec3(0.06, 0.07, 0.10), shaded, smoothstep(0.0, 0.8, fromCut));
   gl_FragData[0] = vec4(shaded, opacity);
+)";
+
+/// A double rim shows where a section cuts, whatever the colours there. Comes last: VTK lays
+/// textures over what is lit.
+constexpr const char* rim_code = R"(
+  //VTK::TCoord::Impl
+  float fromCut = -beyondVS / cutRim - cutRimWidth;
+  vec3 rimmed = mix(vec3(1.0), gl_FragData[0].rgb,
+                    smoothstep(cutRimWidth, cutRimWidth + 0.8, fromCut));
+  gl_FragData[0].rgb = mix(vec3(0.06, 0.07, 0.10), rimmed, smoothstep(0.0, 0.8, fromCut));
 )";
 
 /// As VTK declares them, but taken within the triangle where only a part of a pixel is covered:
@@ -212,9 +218,11 @@ struct Scene::Shape {
     add_place(actor);
     shader->AddFragmentShaderReplacement("//VTK::Normal::Impl", true, normal_code, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, light_code, false);
+    shader->AddFragmentShaderReplacement("//VTK::TCoord::Impl", true, rim_code, false);
     shader->AddVertexShaderReplacement("//VTK::TCoord::Dec", true, vertex_place_code, false);
     shader->AddFragmentShaderReplacement("//VTK::TCoord::Dec", true, fragment_place_code, false);
     shader->GetFragmentCustomUniforms()->SetUniformf("cutRimWidth", 1.0F);
+    shader->GetFragmentCustomUniforms()->SetUniformf("cutMost", 1.0F);
     actor->VisibilityOff();
     renderer->AddActor(actor);
   }
@@ -697,9 +705,12 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   for (Body* body : {body_.get(), reference_.get()}) {
     for (vtkActor* actor : body->actors())
       set_section_uniform(actor->GetShaderProperty()->GetVertexCustomUniforms(), frame.section);
-    for (Shape* shape : {&body->fine, &body->rough})
-      shape->actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
-          "cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+    for (Shape* shape : {&body->fine, &body->rough}) {
+      vtkUniforms* uniforms = shape->actor->GetShaderProperty()->GetFragmentCustomUniforms();
+      uniforms->SetUniformf("cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+      uniforms->SetUniformf("cutMost",
+                            static_cast<float>(1.5 * frame.units_per_pixel / pixel_ratio));
+    }
   }
   set_section_uniform(highlight_->actor->GetShaderProperty()->GetVertexCustomUniforms(),
                       frame.section);

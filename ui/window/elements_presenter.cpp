@@ -135,8 +135,10 @@ void ElementsPresenter::set_partitions_shown(bool shown_now) {
 void ElementsPresenter::refresh() {
   const Snapshot& snapshot = session_->shown();
   const Document& document = snapshot.document;
-  drop_gone(lines_, [&](std::uint32_t id) { return document.lines.find(id); });
-  drop_gone(partitions_, [&](std::uint32_t id) { return document.partitions.find(id); });
+  // A preview may come and go; the selection is that of the state that stays.
+  const Document& current = session_->current().document;
+  drop_gone(lines_, [&](std::uint32_t id) { return current.lines.find(id); });
+  drop_gone(partitions_, [&](std::uint32_t id) { return current.partitions.find(id); });
   drop_gone(boundaries_,
             [&](std::uint32_t k) { return k >= 1 && k <= snapshot.boundaries.size(); });
 

@@ -89,6 +89,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   section_bar_ = new SectionBar(this);
   section_ = new SectionPresenter(session_, view_, section_bar_, this);
   view_presenter_ = new ViewPresenter(session_, view_, elements_, this);
+  treatment_bar_ = new TreatmentBar(this);
+  treatments_ = new TreatmentsPresenter(session_, view_, elements_, treatment_bar_, this);
   const auto tell = [this](const QString& text) { statusBar()->showMessage(text, 10000); };
   connect(section_, &SectionPresenter::message, this, tell);
   connect(view_presenter_, &ViewPresenter::message, this, tell);
@@ -170,6 +172,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());
   restoreState(settings.value("window/state").toByteArray());
+  treatment_bar_->hide();  // even where the window was closed during a treatment
+  findChild<QToolBar*>("tools")->show();
   section_bar_->hide();
   refresh_recent();
   refresh_actions();
@@ -350,6 +354,9 @@ void MainWindow::make_actions() {
   report_ = action(part, tr("Load r&eport…"), {}, tr("What the file held and what was mended"));
   connect(report_, &QAction::triggered, this, &MainWindow::show_load_report);
 
+  treatments_->add_line_actions(menuBar()->addMenu(tr("&Lines")));
+  treatments_->add_partition_actions(menuBar()->addMenu(tr("P&artitions")));
+
   QMenu* look = menuBar()->addMenu(tr("&View"));
   show_field_ =
       action(look, tr("&Curvature"), QKeySequence("C"), tr("Colour the surface by a field"));
@@ -462,6 +469,12 @@ void MainWindow::make_actions() {
   section_bar_->setObjectName("section");
   section_bar_->toggleViewAction()->setVisible(false);
   addToolBar(section_bar_);
+  treatment_bar_->setObjectName("treatment");
+  // It takes the place of the tools while it is there: nothing moves, and it needs the room.
+  connect(treatment_bar_, &QToolBar::visibilityChanged, bar,
+          [this, bar] { bar->setVisible(treatment_bar_->isHidden()); });
+  treatment_bar_->toggleViewAction()->setVisible(false);
+  addToolBar(treatment_bar_);
   bar->setMinimumHeight(section_bar_->sizeHint().height());  // nothing moves when it comes
 }
 
@@ -778,6 +791,10 @@ void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>& p
     if (a->shortcut() == QKeySequence("F") || a->shortcut() == QKeySequence("Z")) menu.addAction(a);
   menu.addSeparator();
   menu.addActions(view_presenter_->visibility_actions());
+  menu.addSeparator();
+  if (!elements_->selected_lines().empty()) menu.addActions(treatments_->available_line_actions());
+  if (!elements_->selected_partitions().empty())
+    menu.addActions(treatments_->available_partition_actions());
   menu.addSeparator();
   menu.addActions({copy_picture_, save_picture_});
   menu.exec(global);

@@ -11,6 +11,7 @@
 #include "ui/window/stability_presenter.h"
 #include "ui/window/steps_presenter.h"
 #include "ui/window/threshold_presenter.h"
+#include "ui/window/treatments_presenter.h"
 #include "ui/window/view_presenter.h"
 #include "ui/window/worklist_presenter.h"
 
@@ -102,6 +103,8 @@ class MainWindow : public QMainWindow {
   ViewPresenter* view_presenter_;
   SectionPresenter* section_;
   SectionBar* section_bar_;
+  TreatmentsPresenter* treatments_;
+  TreatmentBar* treatment_bar_;
   StepsPresenter* steps_;
   WorklistPresenter* worklist_;
   ExplanationPresenter* explanations_;

@@ -355,6 +355,10 @@ void Session::start_preview() {
         previewed_ = snapshot;
         preview_result_ = PreviewResult{operation, std::move(**performed)};
         emit changed(before != snapshot->document.mesh);
+      } else if (round == preview_round_ && !wanted_preview_) {
+        const QString why = QString::fromStdString(performed->error().message);
+        cancel_preview();
+        emit preview_refused(why);
       }
       if (wanted_preview_ && !busy_) start_preview();
     });

@@ -88,6 +88,8 @@ class Session : public QObject {
   void opened();
   void busy_changed(bool busy);
   void progress(double fraction, const QString& what);
+  /// There is no preview: the operation would fail, and why.
+  void preview_refused(const QString& why);
   /// An operation went through: its name.
   void done(const QString& operation);
   void failed(const QString& message);

@@ -47,7 +47,7 @@ StabilityPresenter::StabilityPresenter(Session* session, FieldPresenter* fields,
 
 void StabilityPresenter::add_actions(QMenu* menu) {
   toggle_ =
-      action(menu, tr("&Stability curve"), QKeySequence("Shift+S"),
+      action(menu, tr("&Stability curve"), QKeySequence("Shift+C"),
              tr("Over the histogram: how many lines, or partitions, each threshold would give; "
                 "where the curve is flat is a good place to stop"));
   toggle_->setCheckable(true);

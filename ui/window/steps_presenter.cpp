@@ -35,7 +35,12 @@ bool is_optional(std::string_view step) {
 /// Whether "run all that is out of date" means this step.
 bool wants_run(const Document& document, const char* name) {
   const std::optional<Step>& step = document.step(name);
-  return step ? step->out_of_date : !is_optional(name);
+  if (step) return step->out_of_date;
+  // The preparation comes first or not at all: what was found on the scan itself is left alone.
+  const bool prepares = document.simplify || !document.find_sharp_lines;
+  if (std::string_view(name) == "simplify") return prepares;
+  if (std::string_view(name) == "equilateralize") return prepares && !document.find_partitions;
+  return !is_optional(name);
 }
 
 StepCard card(const QString& name, const QString& title, const QString& tooltip) {

@@ -1,0 +1,307 @@
+// One whole tuning session by mouse and keyboard, on a real scan where there is one, with asserts
+// on the document after each step. ARRIS_SHOTS=folder keeps a picture of the window at each step.
+
+#include <filesystem>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <QAction>
+#include <QDir>
+#include <QDockWidget>
+#include <QImage>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "core/document/treatments/treatment.h"
+#include "tests/ui/window_fixture.h"
+#include "ui/panels/controls.h"
+#include "ui/panels/element_table.h"
+#include "ui/panels/treatment_bar.h"
+
+namespace arris::ui {
+namespace {
+
+class TuningSession : public MainWindowTest {
+ protected:
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    QTest::keyClick(window.get(), key, modifiers);
+  }
+  /// Waits until `reached` holds and nothing runs.
+  bool settles(const std::function<bool()>& reached) {
+    return QTest::qWaitFor([&] { return idle() && reached(); }, patience);
+  }
+  void shot(const char* name) {
+    const QString folder = qEnvironmentVariable("ARRIS_SHOTS");
+    if (folder.isEmpty()) return;
+    QTest::qWait(150);
+    window->grab().save(QDir(folder).filePath(QString(name) + ".png"));
+  }
+  /// Selects rows of a table by their ids: a click, then Ctrl-clicks.
+  void select(const char* dock, const std::vector<std::uint32_t>& ids) {
+    auto* panel = window->findChild<QDockWidget*>(dock);
+    panel->raise();
+    QTest::qWait(30);
+    auto* table = panel->findChild<QTableView*>();
+    Qt::KeyboardModifiers modifiers;
+    for (const std::uint32_t id : ids) {
+      for (int row = 0; row < table->model()->rowCount(); ++row) {
+        const QModelIndex cell = table->model()->index(row, 0);
+        if (cell.data().toUInt() != id) continue;
+        table->scrollTo(cell);
+        QTest::mouseClick(table->viewport(), Qt::LeftButton, modifiers,
+                          table->visualRect(cell).center());
+        break;
+      }
+      modifiers = Qt::ControlModifier;
+    }
+  }
+  TreatmentBar& bar() { return *window->findChild<TreatmentBar*>(); }
+  /// Types into the number of the treatment bar.
+  void type_number(double value) {
+    auto* box = bar().findChild<NumberBox*>();
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, QString::number(value));
+    QTest::keyClick(box, Qt::Key_Tab);
+  }
+  std::string last_operation() const {
+    const History& history = window->session().history();
+    return history.entries()[history.head() - 1].operation.name;
+  }
+  /// Refused or not, as the operation itself says.
+  bool possible(const Operation& operation) const {
+    return apply(document(), operation).has_value();
+  }
+};
+
+TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
+  const std::filesystem::path scan =
+      std::filesystem::path(ARRIS_SOURCE_DIR) / "../shared/data/truth/crankarm_scan.ply";
+  if (std::filesystem::exists(scan)) {
+    window->open(QString::fromStdString(scan.string()));
+    ASSERT_TRUE(settles([&] { return !document().empty(); }));
+  } else {
+    open_sample();
+  }
+  QTest::qWait(100);
+  shot("01_open");
+
+  // Prepare, find, and tune the sharp angle by its handle.
+  press(Qt::Key_F5);
+  ASSERT_TRUE(settles([&] { return document().find_partitions.has_value(); }));
+  EXPECT_TRUE(document().simplify.has_value());
+  EXPECT_LT(document().mesh->face_count(), document().opened.mesh->face_count());
+  shot("02_prepared");
+  window->set_field(Field::ihe);
+  HistogramPanel& histogram = window->histogram();
+  const double angle_before = document().find_sharp_lines->parameters["angle"];
+  const QPoint handle = histogram.handle_position(0);
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, handle);
+  for (int k = 1; k <= 6; ++k) {
+    QTest::mouseMove(&histogram, handle + QPoint(2 * k, 0));
+    QTest::qWait(40);
+  }
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, handle + QPoint(12, 0));
+  ASSERT_TRUE(settles([&] {
+    return document().find_sharp_lines->parameters["angle"].get<double>() > angle_before;
+  }));
+  shot("03_tuned");
+
+  // Delete two lines.
+  ASSERT_GE(document().lines.lines.size(), 8u);
+  const std::uint32_t first = document().lines.lines[0]->id, second = document().lines.lines[1]->id;
+  select("lines", {first, second});
+  ASSERT_EQ(window->elements().selected_lines().size(), 2u);
+  shot("04_two_selected");
+  press(Qt::Key_Delete);
+  ASSERT_TRUE(settles([&] { return last_operation() == "delete_lines"; }));
+  EXPECT_EQ(document().lines.find(first), nullptr);
+  EXPECT_EQ(document().lines.find(second), nullptr);
+
+  // Extend one under an angle of its own: previewed, then one row of history.
+  std::uint32_t extended = 0;
+  for (const LinePtr& line : document().lines.lines) {
+    const Operation extend{"extend_line", {{"line", line->id}, {"angle", 8.0}}};
+    const auto longer = apply(document(), extend);
+    if (longer && longer->lines.find(line->id) &&
+        longer->lines.find(line->id)->length > line->length) {
+      extended = line->id;
+      break;
+    }
+  }
+  ASSERT_NE(extended, 0u);
+  const double length_before = document().lines.find(extended)->length;
+  select("lines", {extended});
+  const std::uint32_t rows_before = rows();
+  press(Qt::Key_X);
+  ASSERT_TRUE(bar().isVisible());
+  type_number(8.0);
+  ASSERT_TRUE(settles([&] {
+    const Line* line = shown().lines.find(extended);
+    return window->session().is_previewing() && line && line->length > length_before;
+  }));
+  EXPECT_EQ(rows(), rows_before);  // a preview leaves no trace
+  shot("05_extend");
+  press(Qt::Key_Return);
+  ASSERT_TRUE(settles([&] { return last_operation() == "extend_line"; }));
+  EXPECT_EQ(rows(), rows_before + 1);
+  EXPECT_FALSE(bar().isVisible());
+  EXPECT_GT(document().lines.find(extended)->length, length_before);
+
+  // Merge two across a gap.
+  std::vector<std::uint32_t> pair;
+  for (const LinePtr& a : document().lines.lines)
+    for (const LinePtr& b : document().lines.lines)
+      if (pair.empty() && a->id < b->id && !a->closed && !b->closed &&
+          (document().mesh->point(a->vertices.back()) - document().mesh->point(b->vertices.front()))
+                  .norm() < 4.0 * document().mesh->mean_edge_length() &&
+          possible({"merge_lines", {{"a", a->id}, {"b", b->id}}}))
+        pair = {a->id, b->id};
+  ASSERT_EQ(pair.size(), 2u);
+  select("lines", pair);
+  press(Qt::Key_J);
+  ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  shot("06_merge");
+  press(Qt::Key_Return);
+  ASSERT_TRUE(settles([&] { return last_operation() == "merge_lines"; }));
+
+  // Draw one: two clicks on the part and Enter.
+  window->elements().clear_selection();
+  press(Qt::Key_F);
+  press(Qt::Key_D);
+  ASSERT_EQ(window->view().tool(), Tool::path);
+  std::set<std::uint32_t> on_lines;
+  for (const LinePtr& line : document().lines.lines)
+    on_lines.insert(line->vertices.begin(), line->vertices.end());
+  const auto from = find([&](const Pick& p) {
+    return p.vertex != no_id && !on_lines.contains(p.vertex) &&
+           !document().mesh->is_border(p.vertex);
+  });
+  ASSERT_TRUE(from.has_value());
+  const VertexId start = window->view().pick(*from)->vertex;
+  const auto to = find([&](const Pick& p) {
+    return p.vertex != no_id && p.vertex != start && !document().mesh->is_border(p.vertex) &&
+           (document().mesh->point(p.vertex) - document().mesh->point(start)).norm() >
+               5.0 * document().mesh->mean_edge_length();
+  });
+  ASSERT_TRUE(to.has_value());
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, *from);
+  QTest::mouseMove(&window->view(), *to);
+  ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  shot("07_draw");
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, *to);
+  QTest::keyClick(&window->view(), Qt::Key_Return);
+  ASSERT_TRUE(settles([&] { return last_operation() == "draw_line"; }));
+  EXPECT_EQ(window->view().tool(), Tool::select);
+
+  // The corrections hold when lines are found again.
+  const std::size_t corrections = document().corrections.size();
+  EXPECT_EQ(corrections, 4u);
+  press(Qt::Key_F5);
+  ASSERT_TRUE(settles([&] { return last_operation() == "find_partitions"; }));
+  EXPECT_EQ(document().corrections.size(), corrections);
+
+  // Connect two partitions, extend one, remove one.
+  window->show_partitions(true);
+  std::vector<std::uint32_t> adjacent;
+  for (const BoundaryPtr& b : *document().boundaries)
+    if (adjacent.empty() && b->left != 0 && b->right != 0 && b->left != b->right)
+      adjacent = {b->left, b->right};
+  ASSERT_EQ(adjacent.size(), 2u);
+  const std::size_t partitions = document().partitions.partitions.size();
+  select("partitions", adjacent);
+  press(Qt::Key_J, Qt::ShiftModifier);
+  ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  shot("08_connect");
+  press(Qt::Key_Return);
+  ASSERT_TRUE(settles([&] { return last_operation() == "connect_partitions"; }));
+  EXPECT_EQ(document().partitions.partitions.size(), partitions - 1);
+
+  std::uint32_t open = 0;
+  for (const BoundaryPtr& b : *document().boundaries)
+    if (open == 0 && b->type == BoundaryType::undefined) open = std::max(b->left, b->right);
+  if (open != 0) {
+    select("partitions", {open});
+    press(Qt::Key_E, Qt::ShiftModifier);
+    ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+    shot("09_extend_partition");
+    press(Qt::Key_Return);
+    ASSERT_TRUE(settles([&] { return last_operation() == "extend_partition"; }));
+  }
+  const std::uint32_t removed = document().partitions.partitions.back()->id;
+  select("partitions", {removed});
+  press(Qt::Key_Delete);
+  ASSERT_TRUE(settles([&] { return last_operation() == "remove_partitions"; }));
+  EXPECT_EQ(document().partitions.find(removed), nullptr);
+  shot("10_removed");
+
+  // All the way back, and all the way forth.
+  const std::string end = hash_of(document());
+  const std::uint32_t head = window->session().history().head();
+  for (int k = 0; k < 100 && window->session().history().head() > 1; ++k) {
+    press(Qt::Key_Z, Qt::ControlModifier);
+    ASSERT_TRUE(settles([] { return true; }));
+    QTest::qWait(1);
+  }
+  EXPECT_EQ(window->session().history().head(), 1u);
+  EXPECT_TRUE(document().lines.lines.empty());
+  EXPECT_EQ(document().mesh, document().opened.mesh);
+  shot("11_undone");
+  for (int k = 0; k < 100 && window->session().history().can_redo(); ++k) {
+    press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    ASSERT_TRUE(settles([] { return true; }));
+    QTest::qWait(1);
+  }
+  EXPECT_EQ(window->session().history().head(), head);
+  EXPECT_EQ(hash_of(document()), end);
+  shot("12_redone");
+
+  const QTemporaryDir folder;
+  const QString picture = folder.filePath("picture.png");
+  PictureOptions options;
+  options.size = {800, 600};
+  EXPECT_TRUE(window->save_picture(picture, options));
+  EXPECT_EQ(QImage(picture).size(), QSize(800, 600));
+}
+
+TEST_F(TuningSession, ActionsThatCannotBeDoneSayWhy) {
+  open_sample();
+  run_both();
+  const auto named = [&](const QString& text) {
+    for (QAction* a : window->findChildren<QAction*>())
+      if (a->text().remove('&').startsWith(text)) return a;
+    return static_cast<QAction*>(nullptr);
+  };
+  window->elements().clear_selection();
+  for (const char* text : {"Extend", "Merge", "Trim", "Connect", "Restart"}) {
+    QAction* action = named(text);
+    ASSERT_NE(action, nullptr) << text;
+    EXPECT_FALSE(action->isEnabled()) << text;
+    EXPECT_TRUE(action->toolTip().contains("elect")) << action->toolTip().toStdString();
+  }
+}
+
+TEST_F(TuningSession, EscapeLeavesEverythingAsItWas) {
+  open_sample();
+  run_both();
+  const std::string before = hash_of(document());
+  ASSERT_FALSE(document().lines.lines.empty());
+  std::uint32_t open = 0;
+  for (const LinePtr& line : document().lines.lines)
+    if (!line->closed) open = line->id;
+  ASSERT_NE(open, 0u);
+  select("lines", {open});
+  press(Qt::Key_X);
+  ASSERT_TRUE(bar().isVisible());
+  type_number(5.0);
+  ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(bar().isVisible());
+  EXPECT_FALSE(window->session().is_previewing());
+  EXPECT_EQ(hash_of(document()), before);
+  EXPECT_TRUE(window->elements().selected_lines().contains(open));
+}
+
+}  // namespace
+}  // namespace arris::ui

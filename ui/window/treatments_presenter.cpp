@@ -1,0 +1,646 @@
+#include "ui/window/treatments_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QAction>
+#include <QMenu>
+#include <QShortcut>
+
+#include "core/sharp_lines/interactive_treatments.h"
+#include "ui/panels/controls.h"
+#include "ui/window/actions.h"
+
+namespace arris::ui {
+
+using nlohmann::json;
+
+TreatmentsPresenter::TreatmentsPresenter(Session* session, MeshView* view,
+                                         ElementsPresenter* elements, TreatmentBar* bar,
+                                         QObject* parent)
+    : QObject(parent), session_(session), view_(view), elements_(elements), bar_(bar) {
+  bar_->hide();
+  accept_key_ = new QShortcut(Qt::Key_Return, bar_->parentWidget());
+  cancel_key_ = new QShortcut(Qt::Key_Escape, bar_->parentWidget());
+  for (QShortcut* key : {accept_key_, cancel_key_}) key->setEnabled(false);
+  connect(accept_key_, &QShortcut::activated, this, &TreatmentsPresenter::accept);
+  connect(cancel_key_, &QShortcut::activated, this, &TreatmentsPresenter::stop);
+  connect(bar_, &TreatmentBar::changed, this, &TreatmentsPresenter::preview);
+  connect(bar_, &TreatmentBar::accepted, this, &TreatmentsPresenter::accept);
+  connect(bar_, &TreatmentBar::cancelled, this, &TreatmentsPresenter::stop);
+
+  connect(session_, &Session::changed, this, [this] {
+    if (running_ && session_->is_previewing()) show_result();
+    refresh();
+  });
+  connect(session_, &Session::busy_changed, this, &TreatmentsPresenter::refresh);
+  connect(session_, &Session::preview_refused, this, [this](const QString& why) {
+    if (running_) bar_->set_result(why, true);
+  });
+  connect(elements_, &ElementsPresenter::selection_changed, this, &TreatmentsPresenter::refresh);
+
+  connect(view_, &MeshView::path_point, this, [this](const Pick& pick) {
+    if (on_point_) on_point_(pick);
+  });
+  connect(view_, &MeshView::path_hover, this, [this](const Pick& pick) {
+    if (path_preview_ && !points_.empty() && pick.vertex != no_id && pick.vertex != points_.back())
+      session_->preview(path_preview_(pick.vertex));
+  });
+  connect(view_, &MeshView::path_done, this, [this] {
+    if (on_path_done_) on_path_done_();
+  });
+  connect(view_, &MeshView::path_back, this, [this] {
+    if (!path_preview_ || points_.empty()) return;
+    points_.pop_back();
+    if (points_.size() < 2) session_->cancel_preview();
+    std::vector<Point> marks;
+    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
+    view_->set_picked_points(marks);
+  });
+  connect(view_, &MeshView::tool_left, this, &TreatmentsPresenter::stop);
+  connect(view_, &MeshView::brushed, this,
+          [this](const std::vector<VertexId>& stroke, double radius) {
+            if (on_brushed_ && !stroke.empty())
+              on_brushed_(json{{"vertices", stroke}, {"radius", radius}});
+          });
+  connect(view_, &MeshView::line_grabbed, this, [this](std::uint32_t line, VertexId vertex) {
+    grabbed_line_ = line;
+    grabbed_vertex_ = vertex;
+  });
+  const auto rerouted = [this](VertexId via) -> std::optional<Operation> {
+    const Document& document = session_->current().document;
+    const Line* line = document.lines.find(grabbed_line_);
+    if (!line || via == grabbed_vertex_) return {};
+    const double distance =
+        (document.mesh->point(via) - document.mesh->point(grabbed_vertex_)).norm();
+    const auto [from, to] = stretch_round(*document.mesh, *line, grabbed_vertex_, distance);
+    return Operation{"reroute_line",
+                     {{"line", grabbed_line_}, {"from", from}, {"to", to}, {"via", via}}};
+  };
+  connect(view_, &MeshView::line_dragged, this, [this, rerouted](VertexId via) {
+    if (const auto operation = rerouted(via); operation && !session_->busy())
+      session_->preview(*operation);
+  });
+  connect(view_, &MeshView::line_dropped, this, [this, rerouted](VertexId via) {
+    const auto operation = rerouted(via);
+    if (operation && !session_->busy())
+      session_->commit_preview(*operation);
+    else
+      session_->cancel_preview();
+  });
+}
+
+// ---- menus ----
+
+void TreatmentsPresenter::add(QMenu* menu, std::vector<Entry>& entries, const QString& text,
+                              const QString& shortcut, const QString& tooltip,
+                              std::function<QString()> why_not, std::function<void()> run) {
+  QAction* a = action(menu, text, QKeySequence(shortcut), tooltip);
+  connect(a, &QAction::triggered, this, std::move(run));
+  entries.push_back({a, std::move(why_not)});
+}
+
+void TreatmentsPresenter::add_line_actions(QMenu* menu) {
+  const auto lines = [this](std::size_t least, std::size_t most) {
+    return [this, least, most] { return needs_lines(least, most); };
+  };
+  const auto open_lines = [this](std::size_t least, std::size_t most) {
+    return [this, least, most]() -> QString {
+      const QString why = needs_lines(least, most);
+      if (!why.isEmpty()) return why;
+      for (const std::uint32_t id : elements_->selected_lines())
+        if (session_->current().document.lines.find(id)->closed)
+          return tr("A closed line has no end.");
+      return {};
+    };
+  };
+  const auto part = [this] { return needs_part(); };
+  add(menu, line_actions_, tr("&Extend…"), "X",
+      tr("The ends of the selected line go on under an angle of their own"), open_lines(1, 1),
+      [this] { extend_line(); });
+  add(menu, line_actions_, tr("&Merge…"), "J",
+      tr("Joins two selected lines over the gap between them"), open_lines(2, 2),
+      [this] { merge(); });
+  add(menu, line_actions_, tr("&Draw"), "D",
+      tr("Draws a line through clicked points; it snaps to sharp edges"), part, [this] { draw(); });
+  add(menu, line_actions_, tr("&Trim…"), "T",
+      tr("Takes away the part of the selected line beyond a clicked vertex"), open_lines(1, 1),
+      [this] { trim(); });
+  add(menu, line_actions_, tr("&Split"), "Shift+S",
+      tr("Makes two lines of the selected one at a clicked vertex"), lines(1, 1),
+      [this] { split_line(); });
+  add(menu, line_actions_, tr("Re&route"), "G",
+      tr("Drag a point of any line: the line runs through where it is let go"), part,
+      [this] { reroute(); });
+  menu->addSeparator();
+  add(menu, line_actions_, tr("Re&compute selected…"), "Q",
+      tr("Finds the selected lines again under an angle of their own"), lines(1, no_id),
+      [this] { recompute_lines(); });
+  add(menu, line_actions_, tr("Recompute in a &brushed region…"), "Shift+Q",
+      tr("Brush over the part: lines inside are found again under an angle of their own"), part,
+      [this] {
+        brush(tr("Brush where lines are to be found again"), [this](json region) {
+          tune(
+              tr("Recompute lines in the region"),
+              [this, region] {
+                return Operation{"recompute_lines", {{"region", region}, {"angle", bar_->value()}}};
+              },
+              angle_number(angle_in_force()));
+        });
+      });
+  menu->addSeparator();
+  add(
+      menu, line_actions_, tr("De&lete"), "Del",
+      tr("Deletes what is selected; it stays deleted when lines or partitions are found again"),
+      [this]() -> QString {
+        return elements_->selected_lines().empty() && elements_->selected_partitions().empty()
+                   ? tr("Select a line or a partition first.")
+                   : QString();
+      },
+      [this] { delete_selected(); });
+  const auto anything = [this]() -> QString {
+    return elements_->selected_lines().empty() && elements_->selected_partitions().empty()
+               ? tr("Select a line or a partition first.")
+               : QString();
+  };
+  add(menu, line_actions_, tr("Loc&k"), "K",
+      tr("Approves what is selected: no finding changes it any more"), anything,
+      [this] { lock(true); });
+  add(
+      menu, line_actions_, tr("&Unlock"), "Shift+K", tr("What is selected may change again"),
+      [this, anything]() -> QString {
+        const QString why = anything();
+        return !why.isEmpty()  ? why
+               : !any_locked() ? tr("Nothing that is selected is locked.")
+                               : QString();
+      },
+      [this] { lock(false); });
+  refresh();
+}
+
+void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
+  const auto partitions = [this](std::size_t least, std::size_t most) {
+    return [this, least, most] { return needs_partitions(least, most); };
+  };
+  const auto found = [this] { return needs_found_partitions(); };
+  add(menu, partition_actions_, tr("&Connect…"), "Shift+J",
+      tr("Makes one of the selected adjacent partitions"), partitions(2, no_id),
+      [this] { connect_partitions(); });
+  add(
+      menu, partition_actions_, tr("&Extend…"), "Shift+E",
+      tr("The selected partition grows over its undefined boundaries under its own interval"),
+      [this]() -> QString {
+        const QString why = needs_partitions(1, 1);
+        if (!why.isEmpty()) return why;
+        const std::uint32_t id = *one_partition();
+        for (const BoundaryPtr& b : session_->current().boundaries)
+          if (b->type == BoundaryType::undefined && (b->left == id || b->right == id)) return {};
+        return tr("It has no undefined boundary: there is nothing to extend into.");
+      },
+      [this] { extend_partition(); });
+  add(menu, partition_actions_, tr("&Restart…"), "Shift+R",
+      tr("Finds the selected partitions, and what is unassigned round them, under another "
+         "interval"),
+      partitions(1, no_id), [this] { restart_partitions(); });
+  add(menu, partition_actions_, tr("S&plit along a path"), "Shift+D",
+      tr("Parts the selected partition along a path through clicked points"), partitions(1, 1),
+      [this] { split_partition(); });
+  menu->addSeparator();
+  add(menu, partition_actions_, tr("Paint &into"), "Shift+P",
+      tr("Brushed faces join the selected partition; the brush stops at sharp lines"),
+      partitions(1, 1), [this] {
+        brush(tr("Paint faces into partition %1").arg(*one_partition()), [this](json region) {
+          const auto id = one_partition();
+          if (!id) return;
+          run_now({"paint_partition", {{"partition", *id}, {"region", region}}});
+        });
+      });
+  add(menu, partition_actions_, tr("Paint &out"), "Shift+U",
+      tr("Brushed faces belong to no partition any more"), found, [this] {
+        brush(tr("Paint faces out of their partitions"), [this](json region) {
+          run_now({"paint_partition", {{"partition", 0u}, {"region", region}}});
+        });
+      });
+  add(
+      menu, partition_actions_, tr("Find again in a &brushed region…"), "Shift+G",
+      tr("Brush over the part: partitions inside are found again under an interval of their own"),
+      [this] { return needs_part(); },
+      [this] {
+        brush(tr("Brush where partitions are to be found again"), [this](json region) {
+          tune(
+              tr("Partitions in the region up to Kmax"),
+              [this, region] {
+                return Operation{"recompute_partitions",
+                                 {{"region", region}, {"interval", {0.0, bar_->value()}}}};
+              },
+              curvature_number(0.0));
+        });
+      });
+  menu->addSeparator();
+  add(menu, partition_actions_, tr("&Smooth boundaries"), "Shift+B",
+      tr("Takes the teeth off the boundaries of the selected partitions, or of all"), found,
+      [this] {
+        run_now({"smooth_boundaries", {{"partitions", selected_partitions()}}});
+      });
+  add(menu, partition_actions_, tr("Remove s&mall ones…"), "Shift+M",
+      tr("Removes partitions under a number of faces"), found, [this] { remove_small(); });
+  refresh();
+}
+
+QList<QAction*> TreatmentsPresenter::available(const std::vector<Entry>& entries) const {
+  QList<QAction*> actions;
+  for (const Entry& entry : entries)
+    if (entry.action->isEnabled()) actions.push_back(entry.action);
+  return actions;
+}
+
+void TreatmentsPresenter::refresh() {
+  for (const std::vector<Entry>* entries : {&line_actions_, &partition_actions_})
+    for (const Entry& entry : *entries) {
+      const QString why = session_->busy()                       ? tr("Work is going on.")
+                          : session_->current().document.empty() ? needs_part()
+                                                                 : entry.why_not();
+      set_available(entry.action, why.isEmpty(), why);
+    }
+}
+
+// ---- what can be done ----
+
+std::optional<std::uint32_t> TreatmentsPresenter::one_line() const {
+  const auto& ids = elements_->selected_lines();
+  return ids.size() == 1 ? std::optional(*ids.begin()) : std::nullopt;
+}
+
+std::optional<std::uint32_t> TreatmentsPresenter::one_partition() const {
+  const auto& ids = elements_->selected_partitions();
+  return ids.size() == 1 ? std::optional(*ids.begin()) : std::nullopt;
+}
+
+json TreatmentsPresenter::selected_lines() const {
+  std::vector<std::uint32_t> ids(elements_->selected_lines().begin(),
+                                 elements_->selected_lines().end());
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+json TreatmentsPresenter::selected_partitions() const {
+  std::vector<std::uint32_t> ids(elements_->selected_partitions().begin(),
+                                 elements_->selected_partitions().end());
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+QString TreatmentsPresenter::needs_part() const {
+  return session_->current().document.empty() ? tr("Open a part first.") : QString();
+}
+
+QString TreatmentsPresenter::needs_found_partitions() const {
+  return session_->current().document.partitions.labels.empty() ? tr("Find partitions first.")
+                                                                : QString();
+}
+
+QString TreatmentsPresenter::needs_lines(std::size_t least, std::size_t most) const {
+  const auto& ids = elements_->selected_lines();
+  for (const std::uint32_t id : ids)
+    if (!session_->current().document.lines.find(id)) return tr("Accept or cancel first.");
+  if (ids.size() >= least && ids.size() <= most) return {};
+  return least == 1 && most == 1 ? tr("Select one line first.")
+         : least == 2            ? tr("Select two lines first: click one, Ctrl-click the other.")
+                                 : tr("Select a line first.");
+}
+
+QString TreatmentsPresenter::needs_partitions(std::size_t least, std::size_t most) const {
+  const auto& ids = elements_->selected_partitions();
+  for (const std::uint32_t id : ids)
+    if (!session_->current().document.partitions.find(id)) return tr("Accept or cancel first.");
+  if (ids.size() >= least && ids.size() <= most) return {};
+  return least == 1 && most == 1 ? tr("Select one partition first.")
+         : least == 2 ? tr("Select two partitions first: click one, Ctrl-click the other.")
+                      : tr("Select a partition first.");
+}
+
+bool TreatmentsPresenter::any_locked() const {
+  const Document& document = session_->current().document;
+  for (const std::uint32_t id : elements_->selected_lines())
+    if (const Line* line = document.lines.find(id); line && line->locked) return true;
+  for (const std::uint32_t id : elements_->selected_partitions())
+    if (const Partition* p = document.partitions.find(id); p && p->locked) return true;
+  return false;
+}
+
+double TreatmentsPresenter::angle_in_force() const {
+  return session_->current_parameters("find_sharp_lines").value("angle", 30.0);
+}
+
+TreatmentBar::Number TreatmentsPresenter::angle_number(double value) const {
+  constexpr double low = 1.0, high = 90.0;
+  return {low,
+          high,
+          std::clamp(value, low, high),
+          false,
+          "°",
+          tr("Exterior angle an edge must have. Drag: the lines follow; letting go accepts.")};
+}
+
+TreatmentBar::Number TreatmentsPresenter::curvature_number(double value) const {
+  // From the distribution in force: its largest bound up to where nearly everything passes.
+  double bound = 0.0;
+  const json parameters = session_->current_parameters("find_partitions");
+  for (const auto& interval : parameters.value("intervals", json::array()))
+    for (const auto& end : interval)
+      if (end.is_number()) bound = std::max(bound, end.get<double>());
+  if (!(bound > 0.0)) bound = 1.0;
+  const double low = bound * 1e-3, high = bound * 1e3;
+  return {low,
+          high,
+          std::clamp(value > 0.0 ? value : bound, low, high),
+          true,
+          "",
+          tr("Kmax: the largest value of the criterion. Drag: the partition follows; letting go "
+             "accepts.")};
+}
+
+// ---- tuning ----
+
+void TreatmentsPresenter::run_now(Operation operation) {
+  if (!session_->busy()) session_->run({std::move(operation)});
+}
+
+void TreatmentsPresenter::tune(const QString& name, std::function<Operation()> operation,
+                               const std::optional<TreatmentBar::Number>& number,
+                               const std::optional<TreatmentBar::Choice>& choice) {
+  running_ = std::move(operation);
+  bar_->show_treatment(name, number ? &*number : nullptr, choice ? &*choice : nullptr);
+  bar_->show();
+  for (QShortcut* key : {accept_key_, cancel_key_}) key->setEnabled(true);
+  preview();
+}
+
+void TreatmentsPresenter::preview() {
+  if (running_ && !session_->busy()) session_->preview(running_());
+}
+
+void TreatmentsPresenter::accept() {
+  if (!running_ || session_->busy()) return;
+  const Operation operation = running_();
+  running_ = nullptr;
+  session_->commit_preview(operation);
+  stop();
+}
+
+void TreatmentsPresenter::stop() {
+  const bool had_preview = running_ || path_preview_ || grabbed_line_ != 0;
+  running_ = nullptr;
+  on_point_ = nullptr;
+  path_preview_ = nullptr;
+  on_path_done_ = nullptr;
+  on_brushed_ = nullptr;
+  grabbed_line_ = 0;
+  points_.clear();
+  view_->set_picked_points({});
+  for (QShortcut* key : {accept_key_, cancel_key_}) key->setEnabled(false);
+  bar_->hide();
+  if (had_preview && session_->is_previewing()) session_->cancel_preview();
+  if (view_->tool() != Tool::select) view_->set_tool(Tool::select);
+  refresh();
+}
+
+void TreatmentsPresenter::show_result() {
+  const Document &before = session_->current().document, &after = session_->shown().document;
+  const auto mm = [](double length) { return number_text(length, 4) + tr(" mm"); };
+  double length_before = 0.0, length_after = 0.0;
+  for (const LinePtr& line : before.lines.lines) length_before += line->length;
+  for (const LinePtr& line : after.lines.lines) length_after += line->length;
+  QStringList parts;
+  if (before.lines.lines != after.lines.lines) {
+    const double change = length_after - length_before;
+    parts << tr("lines %1%2, %3 → %4")
+                 .arg(change < 0.0 ? "−" : "+", mm(std::abs(change)))
+                 .arg(before.lines.lines.size())
+                 .arg(after.lines.lines.size());
+  }
+  if (before.partitions.partitions != after.partitions.partitions) {
+    double area_before = 0.0, area_after = 0.0;
+    for (const PartitionPtr& p : before.partitions.partitions) area_before += p->area;
+    for (const PartitionPtr& p : after.partitions.partitions) area_after += p->area;
+    const double change = area_after - area_before;
+    QString text = tr("partitions %1 → %2")
+                       .arg(before.partitions.partitions.size())
+                       .arg(after.partitions.partitions.size());
+    constexpr double rounding = 1e-9;
+    if (std::abs(change) > rounding * area_before)
+      text += tr(", area %1%2 mm²").arg(change < 0.0 ? "−" : "+", number_text(std::abs(change), 3));
+    parts << text;
+  }
+  bar_->set_result(parts.isEmpty() ? tr("nothing changes") : parts.join("; "), false);
+}
+
+// ---- lines ----
+
+void TreatmentsPresenter::delete_selected() {
+  std::vector<Operation> operations;
+  if (const json ids = selected_lines(); !ids.empty())
+    operations.push_back({"delete_lines", {{"lines", ids}}});
+  if (const json ids = selected_partitions(); !ids.empty())
+    operations.push_back({"remove_partitions", {{"partitions", ids}}});
+  if (!operations.empty() && !session_->busy()) session_->run(std::move(operations));
+}
+
+void TreatmentsPresenter::extend_line() {
+  const std::uint32_t id = *one_line();
+  const TreatmentBar::Choice ends{{tr("Both ends"), tr("First end"), tr("Last end")},
+                                  tr("Which ends of the line go on")};
+  tune(
+      tr("Extend line %1").arg(id),
+      [this, id] {
+        static constexpr const char* names[] = {"both", "first", "last"};
+        return Operation{
+            "extend_line",
+            {{"line", id}, {"angle", bar_->value()}, {"ends", names[std::max(bar_->choice(), 0)]}}};
+      },
+      angle_number(0.75 * angle_in_force()), ends);
+}
+
+void TreatmentsPresenter::merge() {
+  const json ids = selected_lines();
+  tune(tr("Merge lines %1 and %2").arg(ids[0].get<int>()).arg(ids[1].get<int>()),
+       [ids] {
+         return Operation{"merge_lines", {{"a", ids[0]}, {"b", ids[1]}}};
+       },
+       {});
+}
+
+void TreatmentsPresenter::draw() {
+  stop();
+  path_preview_ = [this](VertexId v) {
+    std::vector<VertexId> points = points_;
+    points.push_back(v);
+    return Operation{"draw_line", {{"vertices", points}}};
+  };
+  on_point_ = [this](const Pick& pick) {
+    if (pick.vertex == no_id || (!points_.empty() && points_.back() == pick.vertex)) return;
+    points_.push_back(pick.vertex);
+    std::vector<Point> marks;
+    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
+    view_->set_picked_points(marks);
+  };
+  on_path_done_ = [this] {
+    if (points_.size() < 2 || session_->busy()) return;
+    const Operation operation{"draw_line", {{"vertices", points_}}};
+    path_preview_ = nullptr;
+    session_->commit_preview(operation);
+    stop();
+  };
+  view_->set_tool(Tool::path,
+                  tr("Click points; snaps to sharp edges. Enter ends, Backspace takes back."));
+}
+
+void TreatmentsPresenter::trim() {
+  const std::uint32_t id = *one_line();
+  stop();
+  on_point_ = [this, id](const Pick& pick) {
+    const Document& document = session_->current().document;
+    const Line* line = document.lines.find(id);
+    if (!line) return;
+    const VertexId vertex = nearest_on(*document.mesh, *line, pick.point);
+    const auto place =
+        std::find(line->vertices.begin(), line->vertices.end(), vertex) - line->vertices.begin();
+    const bool first_is_shorter = 2 * place < static_cast<std::ptrdiff_t>(line->vertices.size());
+    view_->set_tool(Tool::select);
+    const TreatmentBar::Choice side{{tr("Shorter side goes"), tr("Longer side goes")},
+                                    tr("Which part of the line is taken away")};
+    tune(
+        tr("Trim line %1").arg(id),
+        [this, id, vertex, first_is_shorter] {
+          const bool first = first_is_shorter == (bar_->choice() <= 0);
+          return Operation{"trim_line",
+                           {{"line", id}, {"vertex", vertex}, {"side", first ? "first" : "last"}}};
+        },
+        {}, side);
+  };
+  view_->set_tool(Tool::path, tr("Click where line %1 is to be cut. Esc leaves.").arg(id));
+}
+
+void TreatmentsPresenter::split_line() {
+  const std::uint32_t id = *one_line();
+  stop();
+  on_point_ = [this, id](const Pick& pick) {
+    const Document& document = session_->current().document;
+    const Line* line = document.lines.find(id);
+    const VertexId vertex = line ? nearest_on(*document.mesh, *line, pick.point) : no_id;
+    stop();
+    if (line) run_now({"split_line", {{"line", id}, {"vertex", vertex}}});
+  };
+  view_->set_tool(Tool::path, tr("Click where line %1 is to be split. Esc leaves.").arg(id));
+}
+
+void TreatmentsPresenter::reroute() {
+  stop();
+  view_->set_tool(Tool::move_point,
+                  tr("Drag a point of a line to where it is to run. Esc leaves."));
+}
+
+void TreatmentsPresenter::recompute_lines() {
+  const json ids = selected_lines();
+  tune(
+      tr("Recompute %n line(s)", nullptr, static_cast<int>(ids.size())),
+      [this, ids] {
+        return Operation{"recompute_lines", {{"lines", ids}, {"angle", bar_->value()}}};
+      },
+      angle_number(angle_in_force()));
+}
+
+void TreatmentsPresenter::lock(bool locked) {
+  run_now(
+      {"lock",
+       {{"lines", selected_lines()}, {"partitions", selected_partitions()}, {"locked", locked}}});
+}
+
+void TreatmentsPresenter::brush(const QString& hint, std::function<void(json)> use) {
+  stop();
+  on_brushed_ = std::move(use);
+  view_->set_tool(Tool::brush, hint + tr(". [ and ] change its size."));
+}
+
+// ---- partitions ----
+
+void TreatmentsPresenter::connect_partitions() {
+  const json ids = selected_partitions();
+  const auto meant = [&](std::uint32_t id) {
+    return elements_->selected_partitions().contains(id);
+  };
+  const Boundaries& boundaries = session_->current().boundaries;
+  const bool line_between = std::any_of(boundaries.begin(), boundaries.end(), [&](const auto& b) {
+    return b->type == BoundaryType::c0 && b->left != b->right && meant(b->left) && meant(b->right);
+  });
+  std::optional<TreatmentBar::Choice> lines;
+  if (line_between)
+    lines = TreatmentBar::Choice{
+        {tr("Sharp line between them stays"), tr("Sharp line between them goes")},
+        tr("What becomes of the sharp lines between the partitions")};
+  tune(
+      tr("Connect %n partitions", nullptr, static_cast<int>(ids.size())),
+      [this, ids] {
+        return Operation{"connect_partitions",
+                         {{"partitions", ids}, {"lines", bar_->choice() == 1 ? "remove" : "keep"}}};
+      },
+      {}, lines);
+}
+
+void TreatmentsPresenter::extend_partition() {
+  const std::uint32_t id = *one_partition();
+  const CurvatureInterval interval = session_->current().document.partitions.find(id)->interval;
+  tune(
+      tr("Extend partition %1 up to Kmax").arg(id),
+      [this, id] {
+        return Operation{"extend_partition",
+                         {{"partition", id}, {"interval", {0.0, bar_->value()}}}};
+      },
+      curvature_number(std::isfinite(interval.max) ? interval.max : 0.0));
+}
+
+void TreatmentsPresenter::restart_partitions() {
+  const json ids = selected_partitions();
+  tune(
+      tr("Restart %n partition(s) up to Kmax", nullptr, static_cast<int>(ids.size())),
+      [this, ids] {
+        return Operation{"restart_partitions",
+                         {{"partitions", ids}, {"interval", {0.0, bar_->value()}}}};
+      },
+      curvature_number(0.0));
+}
+
+void TreatmentsPresenter::split_partition() {
+  const std::uint32_t id = *one_partition();
+  stop();
+  on_point_ = [this](const Pick& pick) {
+    if (pick.vertex == no_id || (!points_.empty() && points_.back() == pick.vertex)) return;
+    points_.push_back(pick.vertex);
+    std::vector<Point> marks;
+    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
+    view_->set_picked_points(marks);
+  };
+  on_path_done_ = [this, id] {
+    if (points_.size() < 2) return;
+    const Operation operation{"split_partition", {{"partition", id}, {"vertices", points_}}};
+    stop();
+    run_now(operation);
+  };
+  view_->set_tool(
+      Tool::path,
+      tr("Click from one boundary of partition %1 to another. Enter parts it.").arg(id));
+}
+
+void TreatmentsPresenter::remove_small() {
+  constexpr double low = 2.0, high = 10000.0, usual = 20.0;
+  tune(
+      tr("Remove partitions under"),
+      [this] {
+        return Operation{"remove_small_partitions",
+                         {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
+      },
+      TreatmentBar::Number{low, high, usual, true, tr(" faces"),
+                           tr("Partitions with fewer faces go; letting go accepts.")});
+}
+
+}  // namespace arris::ui
