@@ -23,4 +23,18 @@ Measurement measure(const Mesh& mesh, const SurfacePoint& from, const SurfacePoi
   return result;
 }
 
+Point mean_normal_at(const Mesh& mesh, const std::vector<VertexId>& vertices) {
+  Point sum = Point::Zero();
+  for (const VertexId v : vertices) {
+    if (v >= mesh.vertex_count()) continue;
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      if (mesh.face(h) == no_id) return;
+      const Triangle& t = mesh.triangle(mesh.face(h));
+      sum += (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0]));
+    });
+  }
+  const double length = sum.norm();
+  return length > 0.0 ? Point(sum / length) : sum;
+}
+
 }  // namespace arris

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 
@@ -21,5 +22,10 @@ struct Measurement {
 
 /// Without an angle where a face is not known or has no area.
 Measurement measure(const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to);
+
+/// Where the surface faces at these vertices: the mean of the normals of the faces round them,
+/// weighted by area, as a unit vector; zero where they cancel out. Vertices that the mesh does not
+/// have are passed over.
+Point mean_normal_at(const Mesh& mesh, const std::vector<VertexId>& vertices);
 
 }  // namespace arris

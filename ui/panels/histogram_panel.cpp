@@ -115,6 +115,7 @@ class HistogramPanel::Private {
   HistogramPanel* q;
   Histogram histogram;
   ColourScale scale;
+  HistogramCurve curve;
   Axis axis;
   std::vector<ThresholdHandle> handles;
   int focused = 0;
@@ -173,6 +174,104 @@ class HistogramPanel::Private {
 
   bool with_title() const { return q->height() >= 120; }
 
+  // ---- the second curve ----
+
+  /// Full height of its scale, which is logarithmic as the bars are: halving the count looks alike
+  /// whatever the count.
+  double most_count() const {
+    double most = 1.0;
+    for (const QPointF& point : curve.points) most = std::max(most, point.y());
+    return 1.1 * most;
+  }
+
+  static QString tick_text(double count) { return count_text(std::llround(count)); }
+
+  /// Room for its scale, the same for most counts so that nothing moves when the curve comes.
+  int curve_width(const QFontMetrics& metrics) const {
+    if (curve.label.isEmpty()) return 0;
+    return std::max(metrics.horizontalAdvance(tick_text(most_count())),
+                    metrics.horizontalAdvance(QStringLiteral("1,000"))) +
+           4;
+  }
+
+  QColor curve_colour() const {
+    const bool dark = q->palette().color(QPalette::Base).lightness() < 128;
+    return dark ? QColor(229, 160, 84) : QColor(178, 92, 10);
+  }
+
+  int curve_y(double count, const QRect& plot) const {
+    const double share = std::log10(1.0 + count) / std::log10(1.0 + most_count());
+    return plot.bottom() - static_cast<int>(std::lround(share * (plot.height() - 3)));
+  }
+
+  void paint_plateau(QPainter& painter, const QRect& plot) const {
+    if (curve.points.empty() || !curve.plateau) return;
+    const int from = line_x(curve.plateau->first, plot), to = line_x(curve.plateau->second, plot);
+    QColor colour = curve_colour();
+    colour.setAlpha(50);
+    painter.fillRect(QRect(from, plot.top(), std::max(to - from, 1), plot.height()), colour);
+  }
+
+  void paint_curve(QPainter& painter, const QRect& plot) const {
+    if (curve.label.isEmpty()) return;
+    const QPalette& palette = q->palette();
+    const QFontMetrics metrics(q->font());
+    const QColor colour = curve_colour();
+    if (curve.points.empty()) {
+      painter.setPen(muted_text(palette));
+      painter.drawText(plot.adjusted(6, 2, -6, -2), Qt::AlignRight | Qt::AlignTop,
+                       curve.label + QStringLiteral(" …"));
+      return;
+    }
+    QPolygonF line;
+    for (const QPointF& point : curve.points)
+      if (point.x() >= axis.min && point.x() <= axis.max)
+        line << QPointF(line_x(point.x(), plot) + 0.5, curve_y(point.y(), plot) + 0.5);
+    painter.setRenderHint(QPainter::Antialiasing, true);
+    painter.setClipRect(plot);
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(palette.color(QPalette::Base), 3.5));  // a rim, to stand out from the bars
+    painter.drawPolyline(line);
+    painter.setPen(QPen(colour, 1.6));
+    painter.drawPolyline(line);
+    painter.setClipping(false);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+
+    painter.setPen(colour);
+    const double most = most_count();
+    // 0 at the bottom, then powers of ten as far as they have room.
+    int free_above = q->height();
+    for (double count = 0.0; count <= most; count = count > 0.0 ? 10.0 * count : 1.0) {
+      const int y = curve_y(count, plot);
+      const QRect box(plot.right() + 4, y - metrics.height() / 2, q->width() - plot.right() - 5,
+                      metrics.height());
+      painter.drawLine(plot.right() + 1, y, plot.right() + 3, y);
+      if (box.bottom() > free_above) continue;
+      painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, tick_text(count));
+      free_above = box.top();
+    }
+    const auto write = [&](const QString& text, QRect box, Qt::Alignment alignment) {
+      box = metrics.boundingRect(box, alignment, text);
+      painter.fillRect(box.adjusted(-3, 0, 3, 0), [&] {
+        QColor ground = palette.color(QPalette::Base);
+        ground.setAlpha(200);
+        return ground;
+      }());
+      painter.drawText(box, alignment, text);
+    };
+    const QRect text = plot.adjusted(6, 2, -6, -2);
+    write(curve.label, text, Qt::AlignRight | Qt::AlignTop);
+    if (!curve.plateau) return;
+    const int middle =
+        (line_x(curve.plateau->first, plot) + line_x(curve.plateau->second, plot)) / 2;
+    const int width = metrics.horizontalAdvance(curve.plateau_text);
+    const int room = metrics.horizontalAdvance(curve.label) + 16;
+    const int left = std::clamp(middle - width / 2, text.left(),
+                                std::max(text.left(), text.right() - room - width));
+    write(curve.plateau_text, QRect(left, text.top(), width + 1, metrics.height()),
+          Qt::AlignLeft | Qt::AlignTop);
+  }
+
   /// Decades of the area axis: 10^first to 10^last, as shares.
   std::array<int, 2> decades() const {
     double least = 1.0, most = 0.0;
@@ -200,7 +299,7 @@ class HistogramPanel::Private {
       widest = std::max(widest, metrics.horizontalAdvance(percent_text(std::pow(10.0, d))));
     }
     result.plot.setLeft(margin + widest + 8);
-    result.plot.setRight(q->width() - margin - 6);
+    result.plot.setRight(q->width() - margin - 6 - curve_width(metrics));
 
     std::vector<int> widths(count), order(count);
     result.with_reading.resize(count);
@@ -598,6 +697,8 @@ class HistogramPanel::Private {
       paint_bars(painter, at.plot, mix(highlight, palette.color(QPalette::Text), 0.1));
       painter.setClipping(false);
     }
+    paint_plateau(painter, at.plot);
+    paint_curve(painter, at.plot);
     paint_strip(painter, at.strip);
     paint_value_axis(painter, at);
     const int count = static_cast<int>(handles.size());
@@ -648,6 +749,14 @@ void HistogramPanel::set_histogram(const Histogram& histogram, const ColourScale
   if (p_->move) p_->move->x = p_->line_x(p_->move->handle, p_->layout().plot);
   update();
 }
+
+void HistogramPanel::set_curve(HistogramCurve curve) {
+  p_->curve = std::move(curve);
+  if (p_->move) p_->move->x = p_->line_x(p_->move->handle, p_->layout().plot);
+  update();
+}
+
+const HistogramCurve& HistogramPanel::curve() const { return p_->curve; }
 
 void HistogramPanel::set_handles(std::vector<ThresholdHandle> handles) {
   const bool same = std::equal(

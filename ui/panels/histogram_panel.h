@@ -1,8 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include <QPointF>
 #include <QString>
 #include <QWidget>
 
@@ -27,6 +30,15 @@ struct ThresholdHandle {
   QString reading;  ///< Second reading beside the number, e.g. "r = 12.3 mm"; may be empty.
 };
 
+/// A second curve over the same axis, on a scale of its own at the right: what each threshold would
+/// give.
+struct HistogramCurve {
+  QString label;                ///< "lines"; empty: there is no curve.
+  std::vector<QPointF> points;  ///< Threshold and count, by increasing threshold; none: to come.
+  std::optional<std::pair<double, double>> plateau;  ///< Where the count hardly changes.
+  QString plateau_text;                              ///< "steady from 24° to 31°"
+};
+
 /// The bottom panel: histogram with the colour map under it, log counts, and the thresholds as
 /// handles. Handles move by mouse (with Shift ten times finer), by wheel and by keyboard (Tab to a
 /// handle, arrows, Shift+arrows for larger steps, typing a number and Enter). Values set by
@@ -40,6 +52,8 @@ class HistogramPanel : public QWidget {
   ~HistogramPanel() override;
 
   void set_histogram(const Histogram& histogram, const ColourScale& scale);
+  void set_curve(HistogramCurve curve);
+  const HistogramCurve& curve() const;
   /// While a handle is being moved, its own value stays with the user and the rest (reading, range,
   /// other handles) is taken over. Handles with other names end the move without a signal.
   void set_handles(std::vector<ThresholdHandle> handles);

@@ -318,6 +318,17 @@ void ElementsPresenter::clear_selection() {
   emit selection_changed();
 }
 
+void ElementsPresenter::select(const Ids& lines, const Ids& partitions) {
+  const Document& document = session_->shown().document;
+  clear_sets();
+  lines_ = lines;
+  partitions_ = partitions;
+  drop_gone(lines_, [&](std::uint32_t id) { return document.lines.find(id); });
+  drop_gone(partitions_, [&](std::uint32_t id) { return document.partitions.find(id); });
+  show_selection();
+  emit selection_changed();
+}
+
 void ElementsPresenter::zoom_to_selection() {
   const Snapshot& snapshot = session_->shown();
   std::vector<VertexId> vertices;

@@ -31,6 +31,8 @@ class ElementsPresenter : public QObject {
   const Ids& selected_partitions() const { return partitions_; }
   const Ids& selected_boundaries() const { return boundaries_; }  ///< Numbers from 1.
   void clear_selection();
+  /// Those that the document shown does not have are passed over.
+  void select(const Ids& lines, const Ids& partitions);
   void zoom_to_selection();
   /// Selects what was picked unless it is selected already, as a context menu wants it.
   void select_at(const std::optional<Pick>& pick);

@@ -96,6 +96,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(view_presenter_, &ViewPresenter::message, this, tell);
   thresholds_ = new ThresholdPresenter(session_, fields_, histogram_, this);
   steps_ = new StepsPresenter(session_, steps_panel_, this);
+  make_guidance();
   make_status_bar();
   make_actions();
 
@@ -222,6 +223,46 @@ void MainWindow::make_docks() {
       add_dock("histogram", tr("Histogram and thresholds"), histogram_, Qt::BottomDockWidgetArea);
   resizeDocks({findChild<QDockWidget*>("steps"), lines}, {290, 350}, Qt::Horizontal);
   resizeDocks({histogram}, {190}, Qt::Vertical);
+}
+
+void MainWindow::make_guidance() {
+  auto* worklist = new WorklistPanel(this);
+  auto* explanation = new ExplanationPanel(this);
+  auto* corrections = new CorrectionsPanel(this);
+  QDockWidget* worklist_dock =
+      add_dock("worklist", tr("Worklist"), worklist, Qt::LeftDockWidgetArea);
+  QDockWidget* explanation_dock =
+      add_dock("explanation", tr("Explain"), explanation, Qt::RightDockWidgetArea);
+  QDockWidget* corrections_dock =
+      add_dock("corrections", tr("Corrections"), corrections, Qt::RightDockWidgetArea);
+  auto* steps = findChild<QDockWidget*>("steps");
+  auto* colours = findChild<QDockWidget*>("colour_map");
+  tabifyDockWidget(steps, worklist_dock);
+  tabifyDockWidget(findChild<QDockWidget*>("history"), explanation_dock);
+  tabifyDockWidget(explanation_dock, corrections_dock);
+  setTabPosition(Qt::LeftDockWidgetArea, QTabWidget::North);
+  steps->raise();
+  colours->raise();
+  const auto bring_up = [](QDockWidget* dock) {
+    dock->show();
+    dock->raise();
+  };
+
+  worklist_ = new WorklistPresenter(session_, view_, elements_, worklist, this);
+  connect(worklist_dock, &QDockWidget::visibilityChanged, worklist_, &WorklistPresenter::set_shown);
+  connect(worklist_, &WorklistPresenter::wanted, worklist_dock,
+          [bring_up, worklist_dock] { bring_up(worklist_dock); });
+  explanations_ = new ExplanationPresenter(session_, view_, explanation, this);
+  connect(explanation_dock, &QDockWidget::visibilityChanged, explanations_,
+          &ExplanationPresenter::set_shown);
+  connect(explanations_, &ExplanationPresenter::wanted, explanation_dock,
+          [bring_up, explanation_dock] { bring_up(explanation_dock); });
+  corrections_ = new CorrectionsPresenter(session_, view_, elements_, corrections, this);
+  connect(corrections_dock, &QDockWidget::visibilityChanged, corrections_,
+          &CorrectionsPresenter::set_shown);
+  connect(corrections_, &CorrectionsPresenter::title_changed, corrections_dock,
+          &QDockWidget::setWindowTitle);
+  stability_ = new StabilityPresenter(session_, fields_, histogram_, this);
 }
 
 void MainWindow::make_status_bar() {
@@ -395,6 +436,11 @@ void MainWindow::make_actions() {
     panels_menu_->addAction(dock->toggleViewAction());
 
   view_presenter_->add_tool_actions(menuBar()->addMenu(tr("&Tools")));
+  QMenu* check = menuBar()->addMenu(tr("&Check"));
+  worklist_->add_actions(check);
+  check->addSeparator();
+  explanations_->add_actions(check);
+  stability_->add_actions(check);
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   connect(

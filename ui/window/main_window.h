@@ -2,14 +2,18 @@
 
 #include <QMainWindow>
 
+#include "ui/window/corrections_presenter.h"
 #include "ui/window/elements_presenter.h"
+#include "ui/window/explanation_presenter.h"
 #include "ui/window/field_presenter.h"
 #include "ui/window/section_presenter.h"
 #include "ui/window/session.h"
+#include "ui/window/stability_presenter.h"
 #include "ui/window/steps_presenter.h"
 #include "ui/window/threshold_presenter.h"
 #include "ui/window/treatments_presenter.h"
 #include "ui/window/view_presenter.h"
+#include "ui/window/worklist_presenter.h"
 
 class QAction;
 class QActionGroup;
@@ -50,6 +54,8 @@ class MainWindow : public QMainWindow {
   HistogramPanel& histogram() { return *histogram_; }
   FieldPresenter& fields() { return *fields_; }
   ElementsPresenter& elements() { return *elements_; }
+  WorklistPresenter& worklist() { return *worklist_; }
+  ExplanationPresenter& explanations() { return *explanations_; }
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -58,6 +64,8 @@ class MainWindow : public QMainWindow {
 
  private:
   void make_docks();
+  /// What helps to find what is left: worklist, explanations, corrections, stability curve.
+  void make_guidance();
   void make_actions();
   void make_status_bar();
   void choose_file();
@@ -98,6 +106,10 @@ class MainWindow : public QMainWindow {
   TreatmentsPresenter* treatments_;
   TreatmentBar* treatment_bar_;
   StepsPresenter* steps_;
+  WorklistPresenter* worklist_;
+  ExplanationPresenter* explanations_;
+  CorrectionsPresenter* corrections_;
+  StabilityPresenter* stability_;
 
   QMenu* recent_menu_;
   QMenu* panels_menu_;

@@ -24,8 +24,7 @@ double seconds_since(Clock::time_point start) {
 
 Snapshot snapshot_of(Document document) {
   Snapshot snapshot{std::move(document), {}};
-  if (!snapshot.document.empty())
-    snapshot.boundaries = *snapshot.document.boundaries;
+  if (!snapshot.document.empty()) snapshot.boundaries = *snapshot.document.boundaries;
   return snapshot;
 }
 
@@ -122,6 +121,11 @@ void Session::open_journal(const QString& path, bool go_on) {
         if (go_on) saved_head_ = 0;
         seconds_.clear();
         show(std::move(*snapshot));
+        applies_corrections_ = true;
+        for (const auto* step :
+             {&current_.document.find_sharp_lines, &current_.document.find_partitions})
+          if (*step && !(*step)->parameters.value("corrections", true))
+            applies_corrections_ = false;
         emit opened();
         for (const std::string& warning : (*replayed)->warnings)
           emit failed(QString::fromStdString(warning));
@@ -228,6 +232,7 @@ void Session::open_scan(const QString& path, std::function<Result<void>()> make)
           saved_head_ = 0;
           seconds_ = {{"open", seconds}};
           show(std::move(*snapshot));
+          applies_corrections_ = true;
           emit opened();
           emit done("open");
         } else {
@@ -239,10 +244,17 @@ void Session::open_scan(const QString& path, std::function<Result<void>()> make)
   });
 }
 
+Operation Session::as_wanted(Operation operation) const {
+  if (operation.name == "find_sharp_lines" || operation.name == "find_partitions")
+    operation.parameters["corrections"] = applies_corrections_;
+  return operation;
+}
+
 void Session::run(std::vector<Operation> operations) {
   if (busy_ || operations.empty()) return;
   cancel_preview();
-  queue_ = std::move(operations);
+  queue_.clear();
+  for (Operation& operation : operations) queue_.push_back(as_wanted(std::move(operation)));
   busy_ = true;
   stop_ = std::stop_source();
   emit busy_changed(true);
@@ -324,7 +336,7 @@ void Session::cancel() {
 }
 
 void Session::preview(const Operation& operation) {
-  wanted_preview_ = operation;
+  wanted_preview_ = as_wanted(operation);
   if (!busy_ && !preview_running_) start_preview();
 }
 
@@ -353,8 +365,9 @@ void Session::start_preview() {
   });
 }
 
-void Session::commit_preview(const Operation& operation) {
+void Session::commit_preview(const Operation& given) {
   if (busy_) return;
+  const Operation operation = as_wanted(given);
   if (!preview_result_ || !previewed_ || preview_result_->wanted != operation) {
     wanted_preview_.reset();
     ++preview_round_;

@@ -45,6 +45,11 @@ class Session : public QObject {
   nlohmann::json parameters(const std::string& step) const;
   nlohmann::json current_parameters(const std::string& step) const;
 
+  /// Whether finding lines or partitions does the corrections again, from now on. At first as the
+  /// part was last run.
+  bool applies_corrections() const { return applies_corrections_; }
+  void set_applies_corrections(bool applies) { applies_corrections_ = applies; }
+
   bool busy() const { return busy_; }
   /// Opens a scan, or replays a session (*.jsonl), in a history of its own. The open part stays
   /// until the new one is there.
@@ -73,7 +78,7 @@ class Session : public QObject {
   /// nothing is journalled.
   void preview(const Operation& operation);
   /// Lets go: commits the operation as one history entry.
-  void commit_preview(const Operation& operation);
+  void commit_preview(const Operation& given);
   void cancel_preview();
 
  signals:
@@ -90,6 +95,8 @@ class Session : public QObject {
   void failed(const QString& message);
 
  private:
+  /// As it is to be run: finding does corrections again, or not.
+  Operation as_wanted(Operation operation) const;
   void start(std::function<void()> work);
   void finish_work();
   void run_next();
@@ -110,6 +117,8 @@ class Session : public QObject {
   std::vector<std::pair<std::string, double>> seconds_;
   /// Defaults of steps that the current document has not run; worked out when first asked for.
   mutable std::map<std::string, nlohmann::json> defaults_;
+
+  bool applies_corrections_ = true;
 
   QThreadPool pool_;  // one thread: work goes one after the other
   bool busy_ = false;

@@ -1,0 +1,226 @@
+// Finding what is left, in the whole window. Needs a display (Xvfb will do).
+
+#include <gtest/gtest.h>
+#include <QAction>
+#include <QApplication>
+#include <QCheckBox>
+#include <QDir>
+#include <QDockWidget>
+#include <QPushButton>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTreeWidget>
+
+#include "core/mesh/write_ply.h"
+#include "tests/support/meshes.h"
+#include "ui/panels/corrections_panel.h"
+#include "ui/panels/explanation_panel.h"
+#include "ui/panels/worklist_panel.h"
+#include "ui/window/main_window.h"
+
+namespace arris::ui {
+namespace {
+
+constexpr int patience = 60000;  // ms
+
+/// A box of 10 mm with its twelve lines found.
+class GuidanceTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QStandardPaths::setTestModeEnabled(true);
+    QApplication::setOrganizationName("arris-test");
+    QSettings().clear();
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
+    window = std::make_unique<MainWindow>();
+    window->resize(1200, 800);
+    window->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+    window->activateWindow();
+    const MeshPtr mesh = testing::mesh_of(testing::divided_cube(10.0, 10));
+    const QString path = folder.filePath("box.ply");
+    ASSERT_TRUE(write_ply(path.toStdString(), *mesh, {}));
+    window->open(path);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !document().empty() && idle(); }, patience));
+    run({{"find_sharp_lines", nlohmann::json::object()},
+         {"find_partitions", nlohmann::json::object()}});
+    ASSERT_EQ(document().lines.lines.size(), 12u);
+  }
+  void TearDown() override {
+    window->session().mark_saved();  // nobody is there to answer
+    window->close();
+  }
+
+  void run(std::vector<Operation> operations) {
+    window->session().run(std::move(operations));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
+  }
+  /// Half of a line is taken away: a loose end in the middle of an edge of the box.
+  void make_loose_end() {
+    const Line& line = *document().lines.lines.front();
+    end = line.vertices[line.vertices.size() / 2];
+    run({{"trim_line", {{"line", line.id}, {"vertex", end}, {"side", "last"}}}});
+  }
+  void bring_up(const char* dock) {
+    window->findChild<QDockWidget*>(dock)->raise();
+    QTest::qWait(50);
+  }
+  double sharp_length() const {
+    double length = 0.0;
+    for (const LinePtr& line : document().lines.lines) length += line->length;
+    return length;
+  }
+  const Document& document() const { return window->session().current().document; }
+  bool idle() const { return !window->session().busy(); }
+  std::size_t rows() const { return window->session().history().entries().size(); }
+
+  QTemporaryDir folder;
+  std::unique_ptr<MainWindow> window;
+  VertexId end = no_id;
+};
+
+TEST_F(GuidanceTest, ALooseEndIsListedZoomedToAndClosedByOneKey) {
+  make_loose_end();
+  EXPECT_LT(sharp_length(), 119.0);
+  const Point towards = window->view().towards_viewer();
+  const QImage before = window->view().grabFramebuffer();
+  QTest::keyClick(window.get(), Qt::Key_F7);  // brings the list up and goes to its first row
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->current_row() >= 0; }, patience));
+  EXPECT_TRUE(panel->isVisible());
+  const auto& items = window->worklist().items();
+  const auto loose = std::find_if(items.begin(), items.end(), [](const WorkItem& item) {
+    return item.kind == WorkKind::loose_end;
+  });
+  ASSERT_NE(loose, items.end());
+  EXPECT_EQ(loose->vertices.front(), end);
+  while (items[static_cast<std::size_t>(panel->current_row())].kind != WorkKind::loose_end)
+    QTest::keyClick(window.get(), Qt::Key_F7);
+  QTest::qWait(200);
+  EXPECT_NE(window->view().grabFramebuffer(), before);
+  // What is in the middle of the view is near the loose end now, whatever side it was on.
+  const auto pick = window->view().pick(window->view().rect().center());
+  ASSERT_TRUE(pick);
+  EXPECT_LT((pick->point - document().mesh->point(end)).norm(), 5.0) << towards;
+
+  const std::size_t ran = rows();
+  QTest::keyClick(window.get(), Qt::Key_A);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == ran + 1 && idle(); }, patience));
+  EXPECT_EQ(window->session().history().entries().back().operation.name, "draw_line");
+  EXPECT_NEAR(sharp_length(), 120.0, 1e-9);
+  // With the gap closed nothing is left of the loose end.
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  for (const WorkItem& item : window->worklist().items())
+    EXPECT_NE(item.kind, WorkKind::loose_end) << item.sentence;
+}
+
+TEST_F(GuidanceTest, WhatIsDismissedStaysOffTheList) {
+  make_loose_end();
+  QTest::keyClick(window.get(), Qt::Key_F7);
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->current_row() >= 0; }, patience));
+  const std::size_t count = window->worklist().items().size();
+  const std::string sentence = window->worklist().items()[0].sentence;
+  window->worklist().dismiss();
+  EXPECT_EQ(window->worklist().items().size(), count - 1);
+  // Another edit elsewhere: the list is made anew, without it.
+  run({{"smooth_curvature", {{"passes", 1}}}});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  for (const WorkItem& item : window->worklist().items()) EXPECT_NE(item.sentence, sentence);
+}
+
+TEST_F(GuidanceTest, NothingIsWorkedOutWhileNobodyLooks) {
+  make_loose_end();
+  QTest::qWait(1000);
+  EXPECT_TRUE(window->worklist().items().empty());
+}
+
+TEST_F(GuidanceTest, AnEdgeOnALineAndOneOffItAreExplained) {
+  auto* panel = window->findChild<ExplanationPanel*>();
+  const Line& line = *document().lines.lines.front();
+  Pick pick;
+  pick.edge = *document().mesh->find_edge(line.vertices[3], line.vertices[4]);
+  pick.face = document().mesh->edge_faces(pick.edge)[0];
+  window->explanations().explain(pick);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->text().contains("On line"); }, patience))
+      << panel->text().toStdString();
+  EXPECT_TRUE(panel->isVisible());
+  EXPECT_TRUE(panel->text().contains("In partition"));
+  EXPECT_TRUE(panel->text().contains("|IHe|"));
+  EXPECT_TRUE(panel->text().contains("90°"));
+
+  for (EdgeId e = 0; e < document().mesh->edge_count(); ++e)
+    if (std::abs(document().curvatures->beta[e]) < 1e-9 && !document().lines.is_sharp(e)) {
+      pick.edge = e;
+      break;
+    }
+  window->explanations().explain(pick);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->text().contains("Not on a line"); }, patience));
+  EXPECT_TRUE(panel->text().contains("failed"));
+}
+
+TEST_F(GuidanceTest, ALiftedDeletionBringsTheLineBack) {
+  const std::string before = hash_of(document());
+  const std::uint32_t line = document().lines.lines.front()->id;
+  run({{"delete_lines", {{"lines", {line}}}}});
+  ASSERT_LT(sharp_length(), 119.0);
+  bring_up("corrections");
+  auto* panel = window->findChild<CorrectionsPanel*>();
+  auto* list = panel->findChild<QTreeWidget*>();
+  ASSERT_EQ(list->topLevelItemCount(), 1);
+  EXPECT_TRUE(list->topLevelItem(0)->text(0).startsWith("Delete line"));
+  EXPECT_EQ(list->topLevelItem(0)->text(1), "applied");
+  list->setCurrentItem(list->topLevelItem(0));
+  const auto button = [&](const QString& text) {
+    for (auto* b : panel->findChildren<QPushButton*>())
+      if (b->text() == text) return b;
+    return static_cast<QPushButton*>(nullptr);
+  };
+  QTest::mouseClick(button("Show"), Qt::LeftButton);
+  QTest::mouseClick(button("Lift"), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && document().corrections.empty(); }, patience));
+  EXPECT_NEAR(sharp_length(), 120.0, 1e-9);
+  EXPECT_EQ(list->topLevelItemCount(), 0);
+}
+
+TEST_F(GuidanceTest, CorrectionsCanBeLeftOutWhenFindingAgain) {
+  run({{"delete_lines", {{"lines", {document().lines.lines.front()->id}}}}});
+  bring_up("corrections");
+  auto* panel = window->findChild<CorrectionsPanel*>();
+  auto* list = panel->findChild<QTreeWidget*>();
+  panel->findChild<QCheckBox*>()->setChecked(false);
+  run({{"find_sharp_lines", nlohmann::json::object()}});
+  EXPECT_NEAR(sharp_length(), 120.0, 1e-9);
+  EXPECT_EQ(list->topLevelItem(0)->text(1), "off");
+  panel->findChild<QCheckBox*>()->setChecked(true);
+  run({{"find_sharp_lines", nlohmann::json::object()}});
+  EXPECT_LT(sharp_length(), 119.0);
+  EXPECT_EQ(list->topLevelItem(0)->text(1), "applied");
+}
+
+TEST_F(GuidanceTest, TheStabilityCurveTellsHowManyLinesAThresholdWouldGive) {
+  window->set_field(Field::ihe);
+  HistogramPanel& histogram = window->histogram();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !histogram.curve().points.empty(); }, patience));
+  EXPECT_EQ(histogram.curve().label, "lines");
+  // A box has its twelve lines at any threshold below a right angle.
+  for (const QPointF& point : histogram.curve().points) {
+    if (point.x() < 89.0) {
+      EXPECT_EQ(point.y(), 12.0) << point.x();
+    }
+  }
+  ASSERT_TRUE(histogram.curve().plateau);
+  EXPECT_GT(histogram.curve().plateau->second, histogram.curve().plateau->first);
+
+  // Another threshold changes nothing; the switch does.
+  window->session().preview({"find_sharp_lines", {{"angle", 50.0}}});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->session().is_previewing(); }, patience));
+  EXPECT_FALSE(histogram.curve().points.empty());
+  window->session().cancel_preview();
+  for (QAction* action : histogram.actions()) action->trigger();
+  EXPECT_TRUE(histogram.curve().points.empty());
+}
+
+}  // namespace
+}  // namespace arris::ui

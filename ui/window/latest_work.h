@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <utility>
+
+#include <QObject>
+#include <QThreadPool>
+
+#include "core/base/context.h"
+
+namespace arris::ui {
+
+/// Work beside the UI thread of which only the latest counts: starting anew, or cancelling, asks
+/// what runs to stop and throws its result away. All calls are on the UI thread.
+class LatestWork : public QObject {
+ public:
+  explicit LatestWork(QObject* parent) : QObject(parent) { pool_.setMaxThreadCount(1); }
+  ~LatestWork() override {
+    cancel();
+    pool_.waitForDone();
+  }
+
+  /// `work`(Context) runs on a thread of its own; `take` gets its result on the UI thread.
+  template <class Work, class Take>
+  void start(Work work, Take take) {
+    cancel();
+    stop_ = std::stop_source();
+    running_ = true;
+    pool_.start([this, work = std::move(work), take = std::move(take), stop = stop_.get_token(),
+                 round = round_] {
+      if (stop.stop_requested()) return;
+      const auto result = std::make_shared<decltype(work(Context()))>(work(Context(nullptr, stop)));
+      QMetaObject::invokeMethod(this, [this, result, take, round] {
+        if (round != round_) return;
+        running_ = false;
+        take(std::move(*result));
+      });
+    });
+  }
+
+  void cancel() {
+    stop_.request_stop();
+    ++round_;
+    running_ = false;
+  }
+  bool running() const { return running_; }
+
+ private:
+  QThreadPool pool_;
+  std::stop_source stop_;
+  std::uint64_t round_ = 0;  // results of earlier rounds are stale
+  bool running_ = false;
+};
+
+}  // namespace arris::ui

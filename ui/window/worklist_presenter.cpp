@@ -1,0 +1,304 @@
+#include "ui/window/worklist_presenter.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/base/number_text.h"
+#include "ui/panels/controls.h"
+#include "ui/window/actions.h"
+#include "ui/window/places.h"
+
+namespace arris::ui {
+
+namespace {
+
+constexpr int settle_time = 400;  // ms
+
+QString title_of(WorkKind kind) {
+  switch (kind) {
+    case WorkKind::leak:
+      return QObject::tr("Gaps that leak");
+    case WorkKind::loose_end:
+      return QObject::tr("Loose ends");
+    case WorkKind::unassigned_area:
+      return QObject::tr("Unassigned areas");
+    case WorkKind::undefined_boundary:
+      return QObject::tr("Undefined boundaries");
+    case WorkKind::many_borders:
+      return QObject::tr("Many borderlines");
+    case WorkKind::sliver:
+      return QObject::tr("Slivers");
+  }
+  return {};
+}
+
+QString choice_text(const Continuation& way) {
+  const QString length = arris::ui::number_text(way.length, 3) + " mm";
+  const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
+                        : way.arrives ? QObject::tr("to the border")
+                                      : QObject::tr("fading out");
+  return QObject::tr("%1 %2, %3 %")
+      .arg(length, where, QString::fromStdString(fixed_text(100.0 * way.score, 0)));
+}
+
+/// Names an item for as long as the mesh stays: what it is about keeps its vertices and ids.
+std::string key_of(const WorkItem& item) {
+  nlohmann::json key{name_of(item.kind)};
+  if (item.kind == WorkKind::many_borders || item.kind == WorkKind::sliver)
+    key.push_back(item.partitions);
+  else if (item.kind == WorkKind::unassigned_area)
+    key.push_back(item.face);
+  else
+    key.push_back(item.vertices);
+  return key.dump();
+}
+
+/// The ways to settle an item, as the lines that each of them draws.
+std::vector<std::vector<std::vector<VertexId>>> ways_of(const WorkItem& item) {
+  std::vector<std::vector<std::vector<VertexId>>> ways;
+  if (item.kind == WorkKind::leak) ways.push_back(item.paths);
+  for (const Continuation& way : item.continuations) ways.push_back({way.vertices});
+  return ways;
+}
+
+}  // namespace
+
+WorklistPresenter::WorklistPresenter(Session* session, MeshView* view, ElementsPresenter* elements,
+                                     WorklistPanel* panel, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      view_(view),
+      elements_(elements),
+      panel_(panel),
+      work_(new LatestWork(this)) {
+  settle_.setSingleShot(true);
+  connect(&settle_, &QTimer::timeout, this, &WorklistPresenter::look);
+  connect(session_, &Session::changed, this, &WorklistPresenter::outdate);
+  connect(session_, &Session::opened, this, [this] {
+    dismissed_.clear();
+    leaks_.clear();
+  });
+  connect(session_, &Session::failed, this, [this] { go_to_ = -1; });
+  connect(session_, &Session::busy_changed, this, &WorklistPresenter::refresh_buttons);
+  connect(view_, &MeshView::tool_changed, this, [this] { clear_marks(); });
+  connect(panel_, &WorklistPanel::current_changed, this,
+          [this](int row, int choice) { show(row, choice, true); });
+  connect(panel_, &WorklistPanel::next_wanted, this, &WorklistPresenter::next);
+  connect(panel_, &WorklistPanel::previous_wanted, this, &WorklistPresenter::previous);
+  connect(panel_, &WorklistPanel::accept_wanted, this, &WorklistPresenter::accept);
+  connect(panel_, &WorklistPanel::dismiss_wanted, this, &WorklistPresenter::dismiss);
+  list();
+}
+
+void WorklistPresenter::add_actions(QMenu* menu) {
+  connect(action(menu, tr("&Next in the worklist"), QKeySequence("F7"),
+                 tr("Zoom to the next thing that is left to do")),
+          &QAction::triggered, this, &WorklistPresenter::next);
+  connect(action(menu, tr("&Previous in the worklist"), QKeySequence("Shift+F7"),
+                 tr("Zoom to the one before")),
+          &QAction::triggered, this, &WorklistPresenter::previous);
+  accept_action_ = action(menu, tr("&Accept"), QKeySequence("A"),
+                          tr("Draw the line that the worklist proposes, shown dashed"));
+  connect(accept_action_, &QAction::triggered, this, &WorklistPresenter::accept);
+  refresh_buttons();
+}
+
+void WorklistPresenter::set_shown(bool shown) {
+  if (shown == shown_) return;
+  shown_ = shown;
+  if (!shown_) {
+    settle_.stop();
+    work_->cancel();
+    clear_marks();
+  } else if (!current_) {
+    look();
+  }
+  refresh_buttons();
+}
+
+void WorklistPresenter::outdate(bool other_mesh) {
+  work_->cancel();
+  clear_marks();
+  if (other_mesh) {  // its vertices are others
+    dismissed_.clear();
+    leaks_.clear();
+  }
+  current_ = false;
+  if (other_mesh) {
+    items_.clear();
+    list();
+  }
+  panel_->set_stale(true);
+  refresh_summary();
+  if (shown_) settle_.start(settle_time);
+}
+
+void WorklistPresenter::look() {
+  if (!shown_ || current_) return;
+  if (session_->busy() || session_->is_previewing()) {
+    settle_.start(settle_time);
+    return;
+  }
+  work_->start([document = session_->current().document](
+                   const Context& context) { return worklist(document, {}, context); },
+               [this](Result<std::vector<WorkItem>> found) {
+                 if (found) take(std::move(*found));
+               });
+}
+
+void WorklistPresenter::take(std::vector<WorkItem> items) {
+  current_ = true;
+  panel_->set_stale(false);
+  items_ = std::move(items);
+  // Lines drawn since the partitions were found part them already: what leaks can only be told once
+  // they are found again. Until then the leaks known before are gone on with.
+  const std::optional<Step>& lines = session_->current().document.find_sharp_lines;
+  if (partitions_out_of_date()) {
+    if (lines != leaks_lines_) leaks_.clear();  // through lines that are no more
+    std::erase_if(items_, [](const WorkItem& item) { return item.kind == WorkKind::leak; });
+    items_.insert(items_.begin(), leaks_.begin(), leaks_.end());
+  } else {
+    leaks_lines_ = lines;
+    leaks_.clear();
+    std::copy_if(items_.begin(), items_.end(), std::back_inserter(leaks_),
+                 [](const WorkItem& item) { return item.kind == WorkKind::leak; });
+  }
+  std::erase_if(items_, [this](const WorkItem& item) { return dismissed_.contains(key_of(item)); });
+  list();
+  if (const int row = std::exchange(go_to_, -1); row >= 0 && !items_.empty())
+    show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
+}
+
+void WorklistPresenter::list() {
+  std::vector<WorkRow> rows;
+  for (const WorkItem& item : items_) {
+    WorkRow row{title_of(item.kind), QString::fromStdString(item.sentence), {}};
+    for (const Continuation& way : item.continuations) row.choices << choice_text(way);
+    rows.push_back(std::move(row));
+  }
+  panel_->set_rows(std::move(rows));
+  refresh_summary();
+}
+
+void WorklistPresenter::refresh_summary() {
+  const Document& document = session_->current().document;
+  QString summary, empty;
+  if (document.empty()) {
+    empty = tr("Open a scan first.");
+  } else if (!document.find_sharp_lines && !document.find_partitions) {
+    empty = tr("What is left shows here once sharp lines or partitions were found.");
+  } else {
+    const QString left =
+        !current_ ? tr("looking for what is left …")
+        : items_.size() == 1
+            ? tr("1 thing left")
+            : tr("%1 things left").arg(count_text(static_cast<qint64>(items_.size())));
+    summary =
+        tr("%1 % of the area assigned, %2")
+            .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)), left);
+    if (!dismissed_.empty())
+      summary += tr(" (%1 dismissed)").arg(count_text(static_cast<qint64>(dismissed_.size())));
+    if (current_ && partitions_out_of_date())
+      summary += tr(". Lines have changed since the partitions were found: F5 finds them again.");
+    empty = current_ ? tr("Nothing is left to do.") : tr("Looking for what is left …");
+  }
+  panel_->set_summary(summary, empty);
+  refresh_buttons();
+}
+
+void WorklistPresenter::step(int by) {
+  if (session_->current().document.empty()) return;
+  if (!shown_ || !current_) {
+    go_to_ = std::max(go_to_, 0);
+    emit wanted();
+    if (!current_) return;
+    go_to_ = -1;
+  }
+  if (items_.empty()) return;
+  const int count = static_cast<int>(items_.size());
+  const int row = panel_->current_row();
+  show(row < 0 ? (by > 0 ? 0 : count - 1) : (row + by + count) % count, 0, true);
+}
+
+void WorklistPresenter::show(int row, int choice, bool zoom) {
+  const Document& document = session_->current().document;
+  const WorkItem& item = items_[static_cast<std::size_t>(row)];
+  panel_->set_current(row, choice);
+  // What lies beside an unassigned area is not what is to be looked at.
+  const bool of_partitions = item.kind != WorkKind::unassigned_area;
+  elements_->select({item.lines.begin(), item.lines.end()},
+                    of_partitions
+                        ? ElementsPresenter::Ids(item.partitions.begin(), item.partitions.end())
+                        : ElementsPresenter::Ids());
+  std::vector<std::vector<VertexId>> ghosts;
+  std::vector<Point> rings;
+  std::vector<VertexId> place = item.vertices;
+  const auto ways = ways_of(item);
+  for (const auto& way : ways)
+    for (const std::vector<VertexId>& path : way) {
+      ghosts.push_back(path);
+      place.insert(place.end(), path.begin(), path.end());
+    }
+  if (item.kind == WorkKind::undefined_boundary) ghosts.push_back(item.vertices);
+  if (ways.size() > 1)
+    for (const std::vector<VertexId>& path : ways[static_cast<std::size_t>(choice)])
+      rings.push_back(document.mesh->point(path.back()));
+  if (item.kind == WorkKind::unassigned_area)
+    rings.push_back(document.mesh->point(document.mesh->triangle(item.face)[0]));
+  if (item.kind == WorkKind::loose_end && ways.empty())
+    rings.push_back(document.mesh->point(item.vertices.front()));
+  view_->set_ghost_paths(std::move(ghosts));
+  view_->set_picked_points(std::move(rings));
+  marked_ = true;
+  if (zoom) show_place(*view_, *document.mesh, place);
+  refresh_buttons();
+}
+
+bool WorklistPresenter::can_accept() const {
+  const int row = panel_->current_row();
+  return shown_ && current_ && row >= 0 && !session_->busy() && !session_->is_previewing() &&
+         !ways_of(items_[static_cast<std::size_t>(row)]).empty();
+}
+
+void WorklistPresenter::accept() {
+  if (!can_accept()) return;
+  const int row = panel_->current_row();
+  const auto ways = ways_of(items_[static_cast<std::size_t>(row)]);
+  std::vector<Operation> operations;
+  for (const std::vector<VertexId>& path : ways[static_cast<std::size_t>(panel_->current_choice())])
+    operations.push_back({"draw_line", {{"vertices", path}}});
+  go_to_ = row;  // what follows moves up
+  const std::string settled = key_of(items_[static_cast<std::size_t>(row)]);
+  std::erase_if(leaks_, [&](const WorkItem& leak) { return key_of(leak) == settled; });
+  session_->run(std::move(operations));
+}
+
+void WorklistPresenter::dismiss() {
+  const int row = panel_->current_row();
+  if (!current_ || row < 0) return;
+  dismissed_.insert(key_of(items_[static_cast<std::size_t>(row)]));
+  items_.erase(items_.begin() + row);
+  clear_marks();
+  list();
+  if (!items_.empty()) show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
+}
+
+bool WorklistPresenter::partitions_out_of_date() const {
+  const std::optional<Step>& step = session_->current().document.find_partitions;
+  return step && step->out_of_date;
+}
+
+void WorklistPresenter::clear_marks() {
+  if (!std::exchange(marked_, false)) return;
+  view_->set_ghost_paths({});
+  view_->set_picked_points({});
+}
+
+void WorklistPresenter::refresh_buttons() {
+  const bool chosen = current_ && panel_->current_row() >= 0;
+  panel_->set_enabled_buttons(current_ && !items_.empty(), can_accept(), chosen);
+  if (accept_action_) accept_action_->setEnabled(can_accept());
+}
+
+}  // namespace arris::ui
