@@ -53,12 +53,22 @@ void drop_gone(ElementsPresenter::Ids& ids, const Find& find) {
 
 }  // namespace
 
+QString ElementsPresenter::origin_text(const Line& line) {
+  const QString origin = line.origin == Origin::extended ? tr("extended")
+                         : line.origin == Origin::merged ? tr("merged")
+                         : line.origin == Origin::drawn  ? tr("drawn")
+                                                         : tr("found");
+  return line.locked ? origin + tr(", locked") : origin;
+}
+
 ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
   auto* table = new ElementTable(
-      tr("lines"), {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Edges")},
+      tr("lines"),
+      {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Edges"), tr("Origin")},
       {tr("Id of the line; it keeps it while thresholds move"),
        tr("Convex or concave; closed lines have no ends"), tr("Length along the line"),
-       tr("Mean exterior angle (IHe), positive where convex"), tr("Number of sharp edges")},
+       tr("Mean exterior angle (IHe), positive where convex"), tr("Number of sharp edges"),
+       tr("Found, or extended, merged or drawn by hand; locked lines are not changed by finding")},
       parent);
   table->set_empty_text(
       tr("No sharp lines yet. Run the step “Sharp lines”, or drag TV_IH on the "
@@ -174,7 +184,7 @@ void ElementsPresenter::refresh() {
                            (line->closed ? tr(", closed") : QString());
       rows.push_back({line->id,
                       {line->id, type, shown(line->length), shown(line->mean_angle, 3),
-                       static_cast<int>(line->vertices.size() - 1)},
+                       static_cast<int>(line->vertices.size() - 1), origin_text(*line)},
                       {}});
     }
     tables_.lines->set_rows(std::move(rows));

@@ -56,6 +56,7 @@ class ElementsPresenter : public QObject {
   void visibility_changed();
 
  private:
+  static QString origin_text(const Line& line);
   void refresh();
   void show_selection();
   void clicked(const std::optional<Pick>& pick, bool toggle);

@@ -795,6 +795,9 @@ void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>& p
   if (!elements_->selected_lines().empty()) menu.addActions(treatments_->available_line_actions());
   if (!elements_->selected_partitions().empty())
     menu.addActions(treatments_->available_partition_actions());
+  if (pick && (pick->edge != no_id || pick->face != no_id))
+    connect(menu.addAction(tr("E&xplain")), &QAction::triggered, this,
+            [this, pick] { explanations_->explain(*pick); });
   menu.addSeparator();
   menu.addActions({copy_picture_, save_picture_});
   menu.exec(global);
