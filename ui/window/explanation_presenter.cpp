@@ -52,7 +52,7 @@ ExplanationPresenter::ExplanationPresenter(Session* session, MeshView* view,
 }
 
 void ExplanationPresenter::add_actions(QMenu* menu) {
-  connect(action(menu, tr("&Explain what is clicked"), QKeySequence("Shift+X"),
+  connect(action(menu, tr("&Explain what is clicked"), QKeySequence("F8"),
                  tr("Why the edge and the face clicked last are, or are not, on a line and in a "
                     "partition")),
           &QAction::triggered, this, &ExplanationPresenter::wanted);
