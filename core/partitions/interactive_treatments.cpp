@@ -486,12 +486,15 @@ EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels
       changed[part.id] = part;
     }
     const auto anchor = mesh.find_face(partition.anchor);
-    if (!anchor || labels[*anchor] != id)
+    if (!anchor || labels[*anchor] != id) {
+      // Another face of it: beside those it lost, or, where it moved away altogether, one it got.
+      for (const auto& [f, label] : changes) starts.push_back(f);
       for (const FaceId f : starts)
         if (labels[f] == id) {
           partition.anchor = mesh.triangle(f);
           break;
         }
+    }
   }
   std::sort(result.touched.begin(), result.touched.end());
   result.touched.erase(std::unique(result.touched.begin(), result.touched.end()),
