@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/document/operations/chain.h"
+#include "core/document/treatments/treatment.h"
 #include "core/sharp_lines/automatic_treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 
@@ -27,16 +28,6 @@ std::string count_text(std::size_t count, const std::string& one, const std::str
 }
 
 // ---- edges ----
-
-SharpLineOptions options_of(const nlohmann::json& parameters) {
-  SharpLineOptions options;
-  options.angle = parameters.at("angle");
-  options.candidates = parameters.at("candidates");
-  options.min_length = parameters.at("min_length");
-  options.parallel_distance = parameters.at("parallel_distance");
-  options.bridge_gap = parameters.at("bridge_gap");
-  return options;
-}
 
 /// The line through an edge; 0: there is none.
 std::uint32_t line_through(const Mesh& mesh, const SharpLines& lines, EdgeId e) {
@@ -89,6 +80,12 @@ class EdgeTests {
                      "Its exterior angle of " + degrees_text(angle_) + " is " +
                          (sharp ? "above" : "not above") + " TV_IH, " +
                          degrees_text(options_.angle) + "."});
+    if (options_.max_angle < 180.0 || options_.convexity != Convexity::any)
+      tests.push_back({"Bounds", angle_, options_.max_angle, "°", within_bounds(),
+                       "Lines are looked for up to " + degrees_text(options_.max_angle) +
+                           (options_.convexity == Convexity::convex    ? ", convex ones only."
+                            : options_.convexity == Convexity::concave ? ", concave ones only."
+                                                                       : ".")});
     for (const VertexId v : mesh_.edge(e_)) {
       const double ikabs = curvatures_.ikabs[v];
       const bool passed = ikabs > tv_ik_;
@@ -116,12 +113,16 @@ class EdgeTests {
   bool above_angle() const {  // as identification compares, in radians
     return std::abs(curvatures_.beta[e_]) > options_.angle * (std::numbers::pi / 180.0);
   }
+  bool within_bounds() const {
+    return !above_angle() || may_be_sharp(curvatures_.beta[e_], options_);
+  }
   /// The first condition that every found edge meets and this one does not, as a clause.
   std::optional<std::string> failed() const {
     if (mesh_.is_border_edge(e_)) return "the scan ends at this edge";
     if (!above_angle())
       return "its angle of " + degrees_text(angle_) + " is not above the threshold of " +
              degrees_text(options_.angle);
+    if (!within_bounds()) return "its angle is outside the bounds that were asked for";
     for (const VertexId v : mesh_.edge(e_))
       if (!(curvatures_.ikabs[v] > tv_ik_))
         return "IKabs of " + vertex_text(v) + ", " + short_text(curvatures_.ikabs[v]) +
@@ -435,7 +436,7 @@ Explanation explain_edge(const Document& document, EdgeId e) {
       there = found;
     }
   }
-  const SharpLineOptions options = options_of(step->parameters);
+  const SharpLineOptions options = line_options_of(step->parameters);
   const EdgeTests tests(*base.mesh, *base.curvatures, options, there.value_or(e));
   // Sharp edges keep their vertices from mesh to mesh; both meshes share the vertices.
   result.tests = tests.all([&](EdgeId other) {

@@ -8,23 +8,24 @@
 #include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
 #include "core/sharp_lines/lines.h"
+#include "core/sharp_lines/sharp_lines.h"
 
 namespace arris {
 
 /// The walk of section 6.1 (figure 26) and its closing pass, over any store of sharp edges.
 ///
 /// `Edges` holds the set that grows: `is_sharp(e)`, `degree(v)` (sharp edges at v), `take(e)`, and
-/// `may_take(e)` for the part of the mesh the walk keeps to. `angle`: TV_IH in radians.
+/// `may_take(e)` for the part of the mesh the walk keeps to.
 template <class Edges>
 class CandidateWalk {
  public:
-  CandidateWalk(const Mesh& mesh, const Curvatures& curvatures, double angle, int candidates,
+  CandidateWalk(const Mesh& mesh, const Curvatures& curvatures, const SharpLineOptions& options,
                 Edges& edges)
       : mesh_(mesh),
         curvatures_(curvatures),
-        tv_ih_(angle),
-        tv_ik_(ikabs_of_straight_edge(angle)),
-        candidates_(static_cast<std::size_t>(std::max(candidates, 1))),
+        options_(options),
+        tv_ik_(ikabs_of_straight_edge(options.angle * std::numbers::pi / 180.0)),
+        candidates_(static_cast<std::size_t>(std::max(options.candidates, 1))),
         edges_(edges) {}
 
   double tv_ik() const { return tv_ik_; }
@@ -58,7 +59,7 @@ class CandidateWalk {
   /// between two of them joins, the sharpest first.
   void close(std::vector<EdgeId> open) {
     std::erase_if(open, [&](EdgeId e) {
-      return std::abs(curvatures_.beta[e]) <= tv_ih_ || !is_free(e) ||
+      return !may_be_sharp(curvatures_.beta[e], options_) || !is_free(e) ||
              edges_.degree(mesh_.edge(e)[0]) == 0 || edges_.degree(mesh_.edge(e)[1]) == 0;
     });
     std::sort(open.begin(), open.end(), [&](EdgeId a, EdgeId b) {
@@ -100,7 +101,7 @@ class CandidateWalk {
     double best_ikabs = tv_ik_;
     for (std::size_t k = 0; k < kept; ++k) {
       const HalfEdgeId h = ring_[k];
-      if (std::abs(curvatures_.beta[h >> 1]) <= tv_ih_) break;
+      if (!may_be_sharp(curvatures_.beta[h >> 1], options_)) continue;
       const double ikabs = curvatures_.ikabs[mesh_.to(h)];
       const bool better = best == no_id ? ikabs > best_ikabs
                                         : ikabs > best_ikabs ||
@@ -114,7 +115,7 @@ class CandidateWalk {
 
   const Mesh& mesh_;
   const Curvatures& curvatures_;
-  const double tv_ih_;
+  const SharpLineOptions options_;
   const double tv_ik_;
   const std::size_t candidates_;
   Edges& edges_;

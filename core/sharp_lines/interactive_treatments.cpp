@@ -103,7 +103,10 @@ std::unordered_set<VertexId> within(const Mesh& mesh, const std::vector<VertexId
 LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
                         const Line& line, LineEnds ends, double angle, int candidates) {
   LocalEdges edges(mesh, lines);
-  CandidateWalk<LocalEdges> walk(mesh, curvatures, angle * degree, candidates, edges);
+  SharpLineOptions options;
+  options.angle = angle;
+  options.candidates = candidates;
+  CandidateWalk<LocalEdges> walk(mesh, curvatures, options, edges);
   if (!line.closed) {
     for (const auto& [end, wanted] : {std::pair{line.vertices.front(), ends != LineEnds::last},
                                       std::pair{line.vertices.back(), ends != LineEnds::first}})
@@ -265,8 +268,7 @@ LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
   for (const EdgeId e : sharp)
     if (lines.edges[e] == Origin::found && !locked.contains(e)) edges.drop(e);
 
-  CandidateWalk<LocalEdges> walk(mesh, curvatures, options.angle * degree, options.candidates,
-                                 edges);
+  CandidateWalk<LocalEdges> walk(mesh, curvatures, options, edges);
   walk.run(seeds);
   walk.close(inside);
 

@@ -40,8 +40,7 @@ class WholeMesh {
 std::vector<Origin> identify_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
                                          const SharpLineOptions& options) {
   WholeMesh edges(mesh);
-  CandidateWalk<WholeMesh> walk(mesh, curvatures, options.angle * degree, options.candidates,
-                                edges);
+  CandidateWalk<WholeMesh> walk(mesh, curvatures, options, edges);
   walk.run(curvatures.by_decreasing_ikabs);
   std::vector<EdgeId> all(mesh.edge_count());
   std::iota(all.begin(), all.end(), EdgeId{0});

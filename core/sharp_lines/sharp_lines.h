@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/base/context.h"
@@ -10,14 +13,29 @@
 
 namespace arris {
 
+/// Which edges may be sharp by the sign of their exterior angle.
+enum class Convexity : std::uint8_t { any, convex, concave };
+
 /// Section 6. Angles in degrees, lengths in the mesh's unit.
 struct SharpLineOptions {
-  double angle = 30.0;      // TV_IH, over 0 to 180; see default_sharp_angle() for one from the part
-  int candidates = 3;       // the paper's alpha (figure 26), 1 to 32
-  double min_length = 0.0;  // isolated lines shorter than this go; 0 keeps them
+  double angle = 30.0;  // TV_IH, over 0 to 180; see default_sharp_angle() for one from the part
+  double max_angle = 180.0;              // upper bound of the exterior angle, 0 to 180
+  Convexity convexity = Convexity::any;  // convex and concave edges both count in the paper
+  int candidates = 3;                    // the paper's alpha (figure 26), 1 to 32
+  double min_length = 0.0;               // isolated lines shorter than this go; 0 keeps them
   int parallel_distance = 1;  // edges between parallel lines of which the weaker goes; 0 keeps both
   double bridge_gap = 0.0;    // loose ends no farther apart than this are joined; 0 joins none
 };
+
+/// True for an exterior angle (radians, signed) that an edge of a sharp line may have.
+inline bool may_be_sharp(float beta, const SharpLineOptions& options) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double angle = std::abs(beta);
+  return angle > options.angle * degree &&
+         (options.max_angle >= 180.0 || angle <= options.max_angle * degree) &&
+         (options.convexity == Convexity::any ||
+          (beta > 0.0F) == (options.convexity == Convexity::convex));
+}
 
 /// The raw sharp edges of section 6.1: seeds by decreasing IKabs, walks by the candidate rule of
 /// figure 26 with TV_IK from TV_IH, closing pass. One flag per edge. A free edge that would make a

@@ -152,7 +152,7 @@ TEST_F(Operations, DefaultsAreComplete) {
             (Names{"box", "side", "version"}));
   EXPECT_EQ(names({"find_sharp_lines", json::object()}),
             (Names{"angle", "candidates", "min_length", "parallel_distance", "bridge_gap",
-                   "corrections", "version"}));
+                   "max_angle", "convexity", "corrections", "version"}));
   EXPECT_EQ(names({"smooth_curvature", json::object()}), (Names{"passes", "version"}));
   EXPECT_EQ(names({"find_partitions", json::object()}),
             (Names{"criterion", "intervals", "min_faces", "fill_holes", "corrections", "version"}));

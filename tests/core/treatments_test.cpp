@@ -254,6 +254,25 @@ TEST(RecomputeLines, InARegionOnlyThereUnderItsOwnAngle) {
   EXPECT_GT(found.lines.lines[0]->length, 6.0);
 }
 
+TEST(FindSharpLines, TakesOnlyTheSignAndAnglesAskedFor) {
+  // A step has a convex edge above and a concave one below, both of 90 degrees.
+  const Document step = document_of(testing::stepped_plate(6.0, 20.0, 3.0, 1.0));
+  const auto angles = [&](const json& parameters) {
+    json complete{{"angle", 30.0}, {"min_length", 0.0}};
+    complete.update(parameters);
+    std::vector<int> signs;
+    for (const LinePtr& line : applied(step, {"find_sharp_lines", complete}).lines.lines)
+      signs.push_back(line->convex() ? 1 : -1);
+    std::sort(signs.begin(), signs.end());
+    return signs;
+  };
+  EXPECT_EQ(angles(json::object()), (std::vector<int>{-1, 1}));
+  EXPECT_EQ(angles({{"convexity", "convex"}}), (std::vector<int>{1}));
+  EXPECT_EQ(angles({{"convexity", "concave"}}), (std::vector<int>{-1}));
+  EXPECT_EQ(angles({{"max_angle", 60.0}}), (std::vector<int>{}));
+  EXPECT_EQ(angles({{"max_angle", 100.0}}), (std::vector<int>{-1, 1}));
+}
+
 TEST(LineTreatments, ComplainOfWhatIsNotThere) {
   const Document document = roof_document();
   for (const Operation& operation :

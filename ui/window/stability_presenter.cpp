@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/document/operations/chain.h"
+#include "core/document/treatments/treatment.h"
 #include "core/guidance/stability.h"
 #include "ui/panels/controls.h"
 #include "ui/window/actions.h"
@@ -113,13 +114,8 @@ void StabilityPresenter::refresh() {
       [basis = basis_, lines, of_lines](const Context& context) {
         const nlohmann::json& p = basis.parameters;
         if (of_lines) {
-          SharpLineOptions options;
-          options.candidates = p.at("candidates");
-          options.min_length = p.at("min_length");
-          options.parallel_distance = p.at("parallel_distance");
-          options.bridge_gap = p.at("bridge_gap");
           return with_plateau(
-              line_stability(*basis.mesh, *basis.curvatures, options, {}, 24, context));
+              line_stability(*basis.mesh, *basis.curvatures, line_options_of(p), {}, 24, context));
         }
         PartitionOptions options;
         options.criterion = p.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;

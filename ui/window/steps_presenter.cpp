@@ -51,6 +51,20 @@ StepCard card(const QString& name, const QString& title, const QString& tooltip)
   return result;
 }
 
+StepParameter choice(const QString& key, const QString& label, const QString& tooltip,
+                     const std::string& value, const QStringList& choices,
+                     const QStringList& choice_labels) {
+  StepParameter result;
+  result.key = key;
+  result.label = label;
+  result.tooltip = tooltip;
+  result.kind = StepParameter::Kind::choice;
+  result.choices = choices;
+  result.choice_labels = choice_labels;
+  result.value = QString::fromStdString(value);
+  return result;
+}
+
 StepParameter real(const QString& key, const QString& label, const QString& tooltip, double value,
                    double least, double most, int decimals, const QString& suffix) {
   StepParameter p;
@@ -256,6 +270,12 @@ void StepsPresenter::refresh() {
         real("angle", tr("Angle TV_IH"),
              tr("Least exterior angle across a sharp line. TV_IK follows from it."),
              p.value("angle", 30.0), 0.1, 179.9, 2, " °"),
+        real("max_angle", tr("Angle up to"),
+             tr("Greatest exterior angle across a sharp line; 180: no upper bound."),
+             p.value("max_angle", 180.0), 0.1, 180.0, 2, " °"),
+        choice("convexity", tr("Edges"), tr("Which edges may be sharp."),
+               p.value("convexity", "any"), {"any", "convex", "concave"},
+               {tr("Both"), tr("Convex"), tr("Concave")}),
         whole("candidates", tr("Candidates"),
               tr("Edges kept at a vertex by the candidate rule (figure 26); 3 suits most parts."),
               p.value("candidates", 3), 1, 32),
@@ -290,14 +310,10 @@ void StepsPresenter::refresh() {
     const nlohmann::json q = session_->parameters("find_partitions");
     partitions.state = state(document.find_partitions);
     partitions.time = seconds_text(session_->seconds_of("find_partitions"));
-    StepParameter criterion;
-    criterion.key = "criterion";
-    criterion.label = tr("Criterion");
-    criterion.tooltip = tr("Kabs on dense meshes, its invariant IKabs on sparse ones.");
-    criterion.kind = StepParameter::Kind::choice;
-    criterion.choices = {"kabs", "ikabs"};
-    criterion.choice_labels = {"Kabs", "IKabs"};
-    criterion.value = QString::fromStdString(q.value("criterion", "kabs"));
+    const StepParameter criterion =
+        choice("criterion", tr("Criterion"),
+               tr("Kabs on dense meshes, its invariant IKabs on sparse ones."),
+               q.value("criterion", "kabs"), {"kabs", "ikabs"}, {"Kabs", "IKabs"});
     StepParameter intervals;
     intervals.key = "intervals";
     intervals.label = tr("Intervals");

@@ -19,6 +19,7 @@ Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::j
   const SharpLineOptions defaults;
   ParameterReader reader("find_sharp_lines", given);
   reader.real("angle", default_sharp_angle(mesh, *base.curvatures), 0.1, 179.9);
+  read_bounds(reader);
   reader.whole("candidates", defaults.candidates, 1, 32);
   reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
   reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);

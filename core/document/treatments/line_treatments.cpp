@@ -257,7 +257,7 @@ Result<Outcome> reroute(Ground& ground, const json& parameters, Round round) {
   return Outcome{};
 }
 
-// recompute_lines: {lines: [ids] or region, angle, candidates, min_length}
+// recompute_lines: {lines: [ids] or region, angle, max_angle, convexity, candidates, min_length}
 
 Result<json> resolve_recompute(const Document& document, const json& given) {
   ParameterReader reader("recompute_lines", given);
@@ -268,6 +268,7 @@ Result<json> resolve_recompute(const Document& document, const json& given) {
   else
     read_region(reader, document, "region");
   read_angle(reader, document);
+  read_bounds(reader);
   reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
   const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
   reader.real("min_length", 0.0, 0.0, longest);
@@ -275,10 +276,7 @@ Result<json> resolve_recompute(const Document& document, const json& given) {
 }
 
 Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
-  SharpLineOptions options;
-  options.angle = parameters.at("angle");
-  options.candidates = parameters.at("candidates");
-  options.min_length = parameters.at("min_length");
+  const SharpLineOptions options = line_options_of(parameters);
   Region region;
   if (parameters.contains("region")) {
     region = region_of(parameters.at("region"));

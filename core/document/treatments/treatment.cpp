@@ -143,14 +143,9 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
   std::vector<Origin> edges(mesh.edge_count(), Origin::none);
   bool switched_on = true;
   if (parameters) {
-    SharpLineOptions options;
-    options.angle = parameters->at("angle");
-    options.candidates = parameters->at("candidates");
-    options.min_length = parameters->at("min_length");
-    options.parallel_distance = parameters->at("parallel_distance");
-    options.bridge_gap = parameters->at("bridge_gap");
     switched_on = parameters->at("corrections");
-    Result<std::vector<Origin>> found = find_sharp_edges(mesh, curvatures, options, context);
+    Result<std::vector<Origin>> found =
+        find_sharp_edges(mesh, curvatures, line_options_of(*parameters), context);
     if (!found) return tl::unexpected<Error>(found.error());
     edges = std::move(*found);
   }
@@ -243,6 +238,26 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
   }
   document.partitions = number_partitions(mesh, *found, document.partitions, document.next_id);
   return {};
+}
+
+SharpLineOptions line_options_of(const nlohmann::json& parameters) {
+  SharpLineOptions options;
+  const std::string convexity = parameters.value("convexity", "any");
+  options.angle = parameters.value("angle", options.angle);
+  options.max_angle = parameters.value("max_angle", options.max_angle);
+  options.convexity = convexity == "convex"    ? Convexity::convex
+                      : convexity == "concave" ? Convexity::concave
+                                               : Convexity::any;
+  options.candidates = parameters.value("candidates", options.candidates);
+  options.min_length = parameters.value("min_length", options.min_length);
+  options.parallel_distance = parameters.value("parallel_distance", options.parallel_distance);
+  options.bridge_gap = parameters.value("bridge_gap", options.bridge_gap);
+  return options;
+}
+
+void read_bounds(ParameterReader& reader) {
+  reader.real("max_angle", SharpLineOptions().max_angle, 0.1, 180.0);
+  reader.choice("convexity", "any", {"any", "convex", "concave"});
 }
 
 void read_lines(ParameterReader& reader, const Document& document, const std::string& name,

@@ -70,6 +70,11 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
 Result<void> refind_partitions(Document& document, const std::optional<nlohmann::json>& parameters,
                                const Context& context);
 
+/// Parameters of find_sharp_lines or recompute_lines as options; what is not there stays default.
+SharpLineOptions line_options_of(const nlohmann::json& parameters);
+/// Reads "max_angle" and "convexity".
+void read_bounds(ParameterReader& reader);
+
 // Targets. A line is named by "line" or in "lines", a partition by "partition" or in "partitions",
 // with anchors in "path", "paths", "anchor" and "anchors".
 
