@@ -20,7 +20,7 @@ struct SimplifyOptions {
   std::optional<double> error_zone;
   std::vector<double> radii;          // one radius per vertex instead, mm; empty: one for all
   double max_edge_length = 0.0;       // no new edge longer than this, mm (4.1); 0: no limit
-  StarCost cost = StarCost::flat;     // by measurement: see StarCost
+  StarCost cost = StarCost::angle;    // by measurement: see StarCost
   std::uint64_t target_vertices = 0;  // stop when so many are left; 0: go on to the end
 };
 

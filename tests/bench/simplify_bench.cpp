@@ -58,11 +58,13 @@ void run_peer(const Mesh& mesh, double tolerance, double& time, std::size_t& ver
   vertices = peer.n_vertices();
 }
 
-void compare(const std::string& name, const Mesh& mesh, double tolerance, bool with_peer) {
+void compare(const std::string& name, const Mesh& mesh, double tolerance, StarCost cost,
+             bool with_peer) {
   std::printf("%s: %zu faces, %zu vertices, noise %.4f, tolerance %g\n", name.c_str(),
               mesh.face_count(), mesh.vertex_count(), estimate_noise(mesh), tolerance);
   SimplifyOptions options;
   options.error_zone = tolerance;
+  options.cost = cost;
   double start = seconds();
   const Result<Prepared> simple = simplify(mesh, nullptr, {}, options);
   const double time = seconds() - start;
@@ -95,15 +97,18 @@ void compare(const std::string& name, const Mesh& mesh, double tolerance, bool w
 
 int main(int argc, char** argv) {
   bool with_peer = true, with_plate = true;
+  StarCost cost = SimplifyOptions().cost;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--no-peer") with_peer = false;
     if (word == "--no-plate") with_plate = false;
+    if (word == "--angle") cost = StarCost::angle;
+    if (word == "--area") cost = StarCost::area;
   }
   if (with_plate) {
     const MeshPtr plate =
         arris::testing::mesh_of(arris::testing::noisy_plane(70.7, 0.1, 0.01, 0.2, 1));
-    compare("plate", *plate, 0.05, with_peer);
+    compare("plate", *plate, 0.05, cost, with_peer);
   }
   for (int i = 1; i + 1 < argc; ++i) {
     if (argv[i][0] == '-') continue;
@@ -112,7 +117,7 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "%s\n", scan.error().message.c_str());
       return 1;
     }
-    compare(argv[i], *(*scan)->mesh, std::atof(argv[i + 1]), with_peer);
+    compare(argv[i], *(*scan)->mesh, std::atof(argv[i + 1]), cost, with_peer);
     ++i;
   }
 }

@@ -48,7 +48,7 @@ Result<nlohmann::json> resolve_simplify(const Document& document, const nlohmann
       reader.real("max_edge_length", default_max_edge_length(*document.opened.mesh), 0.0, longest);
   // The area gives the truest normals (see StarCost), but is slow on the big stars that grow where
   // edges may have any length.
-  reader.choice("cost", edge > 0.0 ? "area" : "flat", {"flat", "angle", "area"});
+  reader.choice("cost", edge > 0.0 ? "area" : "angle", {"flat", "angle", "area"});
   reader.whole("target_vertices", 0, 0, 0x7FFFFFFF);
   reader.flag("again", false);
   return reader.finish();
