@@ -4,40 +4,27 @@
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
-#include <QDir>
 #include <QDockWidget>
 #include <QPushButton>
-#include <QSettings>
-#include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTreeWidget>
 
 #include "core/mesh/write_ply.h"
 #include "tests/support/meshes.h"
+#include "tests/ui/window_fixture.h"
 #include "ui/panels/corrections_panel.h"
 #include "ui/panels/explanation_panel.h"
 #include "ui/panels/worklist_panel.h"
-#include "ui/window/main_window.h"
 
 namespace arris::ui {
 namespace {
 
-constexpr int patience = 60000;  // ms
-
 /// A box of 10 mm with its twelve lines found.
-class GuidanceTest : public ::testing::Test {
+class GuidanceTest : public MainWindowTest {
  protected:
   void SetUp() override {
-    QStandardPaths::setTestModeEnabled(true);
-    QApplication::setOrganizationName("arris-test");
-    QSettings().clear();
-    QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
-    window = std::make_unique<MainWindow>();
-    window->resize(1200, 800);
-    window->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
-    window->activateWindow();
+    MainWindowTest::SetUp();
     const MeshPtr mesh = testing::mesh_of(testing::divided_cube(10.0, 10));
     const QString path = folder.filePath("box.ply");
     ASSERT_TRUE(write_ply(path.toStdString(), *mesh, {}));
@@ -47,11 +34,6 @@ class GuidanceTest : public ::testing::Test {
          {"find_partitions", nlohmann::json::object()}});
     ASSERT_EQ(document().lines.lines.size(), 12u);
   }
-  void TearDown() override {
-    window->session().mark_saved();  // nobody is there to answer
-    window->close();
-  }
-
   void run(std::vector<Operation> operations) {
     window->session().run(std::move(operations));
     ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
@@ -71,12 +53,8 @@ class GuidanceTest : public ::testing::Test {
     for (const LinePtr& line : document().lines.lines) length += line->length;
     return length;
   }
-  const Document& document() const { return window->session().current().document; }
-  bool idle() const { return !window->session().busy(); }
-  std::size_t rows() const { return window->session().history().entries().size(); }
 
   QTemporaryDir folder;
-  std::unique_ptr<MainWindow> window;
   VertexId end = no_id;
 };
 
