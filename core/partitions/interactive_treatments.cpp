@@ -8,6 +8,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "core/simplification/distance.h"
+
 namespace arris {
 
 namespace {
@@ -323,18 +325,28 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
   return fail(nothing);
 }
 
-std::vector<FaceId> faces_within(const Mesh& mesh, const std::unordered_set<VertexId>& vertices) {
-  std::vector<FaceId> faces;
-  for (const VertexId v : vertices)
+std::vector<FaceId> faces_touched(const Mesh& mesh, const Region& region,
+                                  const SharpLines* stop_at) {
+  std::vector<VertexId> stroke;
+  for (const VertexId v : region.stroke)
+    if (v < mesh.vertex_count() && !mesh.is_isolated(v)) stroke.push_back(v);
+  std::vector<FaceId> starts;
+  for (const VertexId v : stroke)
     mesh.for_ring(v, [&](HalfEdgeId h) {
-      const FaceId f = mesh.face(h);
-      if (f == no_id) return;
-      for (const VertexId w : mesh.triangle(f))
-        if (!vertices.contains(w)) return;
-      faces.push_back(f);
+      if (mesh.face(h) != no_id) starts.push_back(mesh.face(h));
     });
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  const double radius2 = region.radius * region.radius;
+  std::vector<FaceId> faces = flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
+    if (stop_at && stop_at->is_sharp(h >> 1)) return false;
+    const Triangle& t = mesh.triangle(f);
+    return std::any_of(stroke.begin(), stroke.end(), [&](VertexId v) {
+      return squared_distance_to_triangle(mesh.point(v), mesh.point(t[0]), mesh.point(t[1]),
+                                          mesh.point(t[2])) <= radius2;
+    });
+  });
   std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;
 }
 

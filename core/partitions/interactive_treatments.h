@@ -10,6 +10,7 @@
 #include "core/mesh/mesh.h"
 #include "core/partitions/boundaries.h"
 #include "core/partitions/partitions.h"
+#include "core/sharp_lines/interactive_treatments.h"
 #include "core/sharp_lines/lines.h"
 
 /// The interactive treatments of section 7.2. Each works out which faces get another label;
@@ -56,8 +57,12 @@ std::vector<std::vector<FaceId>> find_areas(const PartitionGround& ground,
 Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partition& partition,
                                     const std::vector<VertexId>& path);
 
-/// Faces whose three vertices are all among `vertices`, ascending.
-std::vector<FaceId> faces_within(const Mesh& mesh, const std::unordered_set<VertexId>& vertices);
+/// The faces a brushed region touches: those that reach into a sphere of its radius about a vertex
+/// of the stroke and hang together with the faces round the stroke through others that do, not over
+/// sharp edges where `stop_at` is given. Ascending. Vertices of the stroke that the mesh does not
+/// have are passed over.
+std::vector<FaceId> faces_touched(const Mesh& mesh, const Region& region,
+                                  const SharpLines* stop_at = nullptr);
 
 /// Those of `faces` that a partition reaches through faces of `faces`, not over sharp edges.
 std::vector<FaceId> joined_to(const PartitionGround& ground, const std::vector<FaceId>& faces,

@@ -51,51 +51,36 @@ class LocalEdges {
   std::unordered_map<EdgeId, bool> changes_;
 };
 
-/// Vertices joined to `from` by edges whose vertices all satisfy `is_in`; sharp edges are not
-/// crossed where `stop_at` is given.
-template <class IsIn>
-std::unordered_set<VertexId> spread(const Mesh& mesh, const std::vector<VertexId>& from,
-                                    const SharpLines* stop_at, const IsIn& is_in) {
+/// Vertices joined to `sources` by edges, all within `radius` of one of them.
+std::unordered_set<VertexId> within(const Mesh& mesh, const std::vector<VertexId>& sources,
+                                    double radius) {
   std::unordered_set<VertexId> reached;
-  std::vector<VertexId> front;
-  for (const VertexId v : from)
+  std::vector<std::pair<VertexId, VertexId>> front;  // with the source it is measured from
+  for (const VertexId v : sources)
     if (v < mesh.vertex_count() && !mesh.is_isolated(v) && reached.insert(v).second)
-      front.push_back(v);
-  const std::unordered_set<VertexId> start = reached;
+      front.emplace_back(v, v);
+  const double radius2 = radius * radius;
   for (std::size_t next = 0; next < front.size(); ++next) {
-    const VertexId v = front[next];
-    // A vertex of a line is reached, but not passed; the stroke itself may begin on one.
-    if (stop_at && !start.contains(v) && !sharp_edges_at(mesh, *stop_at, v).empty()) continue;
-    mesh.for_ring(v, [&](HalfEdgeId h) {
+    const auto [v, source] = front[next];
+    mesh.for_ring(v, [&, source = source](HalfEdgeId h) {
       const VertexId w = mesh.to(h);
-      if (!reached.contains(w) && is_in(v, w)) {
-        reached.insert(w);
-        front.push_back(w);
-      }
+      if (reached.contains(w)) return;
+      VertexId nearest = source;
+      double least = (mesh.point(w) - mesh.point(nearest)).squaredNorm();
+      if (least > radius2)  // round a bend another source may be nearer
+        for (const VertexId s : sources)
+          if (const double d =
+                  s < mesh.vertex_count() ? (mesh.point(w) - mesh.point(s)).squaredNorm() : least;
+              d < least) {
+            least = d;
+            nearest = s;
+          }
+      if (least > radius2) return;
+      reached.insert(w);
+      front.emplace_back(w, nearest);
     });
   }
   return reached;
-}
-
-/// Vertices within `radius` of one of `sources`, spread over the surface from the nearest of them.
-std::unordered_set<VertexId> within(const Mesh& mesh, const std::vector<VertexId>& sources,
-                                    double radius, const SharpLines* stop_at) {
-  std::unordered_map<VertexId, VertexId> nearest;  // reached to the source it is measured from
-  for (const VertexId v : sources) nearest[v] = v;
-  const double radius2 = radius * radius;
-  return spread(mesh, sources, stop_at, [&](VertexId v, VertexId w) {
-    VertexId best = nearest[v];
-    double least = (mesh.point(w) - mesh.point(best)).squaredNorm();
-    if (least > radius2)  // round a bend another source may be nearer
-      for (const VertexId s : sources)
-        if (const double d = (mesh.point(w) - mesh.point(s)).squaredNorm(); d < least) {
-          least = d;
-          best = s;
-        }
-    if (least > radius2) return false;
-    nearest[w] = best;
-    return true;
-  });
 }
 
 }  // namespace
@@ -196,7 +181,7 @@ std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
   std::unordered_set<EdgeId> own;
   for (const HalfEdgeId h : half_edges_of(mesh, path)) own.insert(h >> 1);
   const std::unordered_set<VertexId> zone =
-      within(mesh, path, veto_reach * mesh.mean_edge_length(), nullptr);
+      within(mesh, path, veto_reach * mesh.mean_edge_length());
   std::vector<EdgeId> found;
   for (const VertexId v : zone)
     mesh.for_ring(v, [&](HalfEdgeId h) {
@@ -235,9 +220,8 @@ std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, 
   return {walk(-1), walk(1)};
 }
 
-std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region,
-                                         const SharpLines* stop_at) {
-  return within(mesh, region.stroke, region.radius, stop_at);
+std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region) {
+  return within(mesh, region.stroke, region.radius);
 }
 
 LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,

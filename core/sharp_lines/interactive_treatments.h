@@ -68,9 +68,7 @@ struct Region {
   double radius = 0.0;
 };
 /// Vertices of the region. Vertices of the stroke that the mesh does not have are passed over.
-/// `stop_at_lines`: the region does not reach over sharp edges (their vertices belong to it).
-std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region,
-                                         const SharpLines* stop_at = nullptr);
+std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region);
 
 /// Finds the sharp edges inside a region again under thresholds of its own: found edges with both
 /// ends inside go, but for those of locked lines, and are identified anew; isolated lines that lie
