@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
       "field", "Field to show: K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".", "F");
   const QCommandLineOption size("size", "Size of the picture in pixels (1600x1200).", "WxH",
                                 "1600x1200");
-  const QCommandLineOption run("run", "Find sharp lines and partitions after opening.");
+  const QCommandLineOption run(
+      "run", "Prepare the part and find sharp lines and partitions after opening.");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
   parser.addOptions({sample, screenshot, field, size, run, window});
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
@@ -95,7 +96,9 @@ int main(int argc, char** argv) {
     if (wanted_field) main_window.set_field(*wanted_field);
     if (parser.isSet(run))
       QTimer::singleShot(0, &main_window, [&] {
-        session.run({Operation{"find_sharp_lines", nlohmann::json::object()},
+        session.run({Operation{"simplify", nlohmann::json::object()},
+                     Operation{"find_sharp_lines", nlohmann::json::object()},
+                     Operation{"equilateralize", nlohmann::json::object()},
                      Operation{"find_partitions", nlohmann::json::object()}});
       });
   });
