@@ -369,8 +369,9 @@ TEST(ExtendPartition, GrowsIntoUnassignedFacesOnly) {
     before = extended.partitions.find(plane->id)->faces;
     expect_invariants(extended);
     for (FaceId f = 0; f < document.mesh->face_count(); ++f)
-      if (document.partitions.labels[f] != 0)
+      if (document.partitions.labels[f] != 0) {
         ASSERT_EQ(extended.partitions.labels[f], document.partitions.labels[f]);
+      }
   }
   EXPECT_GT(before, plane->faces);
 }
