@@ -18,9 +18,9 @@ double default_error_zone(const Mesh& mesh);
 
 /// The longest new edge for a scan, rounded to two digits: twice its mean edge, so that about half
 /// of the vertices stay (4.1: planes and cylinders stay populated). By measurement on the five
-/// scans with known lines, found at the default angle: without a limit F1 is 0.60, with 4, 3, 2 and
-/// 1.5 times the mean edge 0.70, 0.74, 0.78 and 0.78; on the scan itself 0.72. Mean IoU of the
-/// partitions is 0.48, 0.48, 0.55, 0.52 and 0.47; on the scan itself 0.47.
+/// scans with known lines, all else at its default: without a limit F1 is 0.64, with 4, 3, 2 and
+/// 1.5 times the mean edge 0.73, 0.76, 0.78 and 0.78; on the scan itself 0.74. Mean IoU of the
+/// partitions is 0.47, 0.56, 0.56, 0.51 and 0.48; on the scan itself 0.49.
 double default_max_edge_length(const Mesh& mesh);
 
 }  // namespace arris

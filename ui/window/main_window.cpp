@@ -354,8 +354,8 @@ void MainWindow::make_actions() {
   report_ = action(part, tr("Load r&eport…"), {}, tr("What the file held and what was mended"));
   connect(report_, &QAction::triggered, this, &MainWindow::show_load_report);
 
-  treatments_->add_line_actions(menuBar()->addMenu(tr("&Lines")));
-  treatments_->add_partition_actions(menuBar()->addMenu(tr("P&artitions")));
+  treatments_->add_line_actions(menuBar()->addMenu(tr("Li&nes")));
+  treatments_->add_partition_actions(menuBar()->addMenu(tr("Part&itions")));
 
   QMenu* look = menuBar()->addMenu(tr("&View"));
   show_field_ =
@@ -436,7 +436,7 @@ void MainWindow::make_actions() {
     panels_menu_->addAction(dock->toggleViewAction());
 
   view_presenter_->add_tool_actions(menuBar()->addMenu(tr("&Tools")));
-  QMenu* check = menuBar()->addMenu(tr("&Check"));
+  QMenu* check = menuBar()->addMenu(tr("Chec&k"));
   worklist_->add_actions(check);
   check->addSeparator();
   explanations_->add_actions(check);

@@ -53,9 +53,7 @@ TreatmentsPresenter::TreatmentsPresenter(Session* session, MeshView* view,
     if (!path_preview_ || points_.empty()) return;
     points_.pop_back();
     if (points_.size() < 2) session_->cancel_preview();
-    std::vector<Point> marks;
-    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
-    view_->set_picked_points(marks);
+    show_points();
   });
   connect(view_, &MeshView::tool_left, this, &TreatmentsPresenter::stop);
   connect(view_, &MeshView::brushed, this,
@@ -477,13 +475,7 @@ void TreatmentsPresenter::draw() {
     points.push_back(v);
     return Operation{"draw_line", {{"vertices", points}}};
   };
-  on_point_ = [this](const Pick& pick) {
-    if (pick.vertex == no_id || (!points_.empty() && points_.back() == pick.vertex)) return;
-    points_.push_back(pick.vertex);
-    std::vector<Point> marks;
-    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
-    view_->set_picked_points(marks);
-  };
+  on_point_ = [this](const Pick& pick) { add_point(pick); };
   on_path_done_ = [this] {
     if (points_.size() < 2 || session_->busy()) return;
     const Operation operation{"draw_line", {{"vertices", points_}}};
@@ -493,6 +485,18 @@ void TreatmentsPresenter::draw() {
   };
   view_->set_tool(Tool::path,
                   tr("Click points; snaps to sharp edges. Enter ends, Backspace takes back."));
+}
+
+void TreatmentsPresenter::add_point(const Pick& pick) {
+  if (pick.vertex == no_id || (!points_.empty() && points_.back() == pick.vertex)) return;
+  points_.push_back(pick.vertex);
+  show_points();
+}
+
+void TreatmentsPresenter::show_points() {
+  std::vector<Point> marks;
+  for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
+  view_->set_picked_points(marks);
 }
 
 void TreatmentsPresenter::trim() {
@@ -613,13 +617,7 @@ void TreatmentsPresenter::restart_partitions() {
 void TreatmentsPresenter::split_partition() {
   const std::uint32_t id = *one_partition();
   stop();
-  on_point_ = [this](const Pick& pick) {
-    if (pick.vertex == no_id || (!points_.empty() && points_.back() == pick.vertex)) return;
-    points_.push_back(pick.vertex);
-    std::vector<Point> marks;
-    for (const VertexId v : points_) marks.push_back(session_->current().document.mesh->point(v));
-    view_->set_picked_points(marks);
-  };
+  on_point_ = [this](const Pick& pick) { add_point(pick); };
   on_path_done_ = [this, id] {
     if (points_.size() < 2) return;
     const Operation operation{"split_partition", {{"partition", id}, {"vertices", points_}}};

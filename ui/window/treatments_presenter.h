@@ -64,6 +64,9 @@ class TreatmentsPresenter : public QObject {
   void merge();
   void draw();
   void split_partition();
+  /// Another point of the path that is being clicked; its points as rings in the view.
+  void add_point(const Pick& pick);
+  void show_points();
   void trim();
   void split_line();
   void reroute();
