@@ -1,8 +1,8 @@
 #include "core/document/comparison.h"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/base/parallel.h"
 #include "core/simplification/distance.h"
@@ -149,28 +149,31 @@ CommonGround common_ground(const Document& left, const Document& right) {
 
 void compare_partitions(const CommonGround& ground, Comparison& result) {
   std::unordered_map<std::uint64_t, double> shared;  // area by the two labels
-  double all = 0.0, same = 0.0;
+  double all = 0.0, otherwise = 0.0;
   for (FaceId f = 0; f < ground.mesh.face_count(); ++f) {
     const std::uint32_t a = ground.labels[0][f], b = ground.labels[1][f];
     const double area = face_area(ground.mesh, f);
     all += area;
     if (a != 0 && b != 0) shared[std::uint64_t{a} << 32 | b] += area;
-    if (a == 0 && b == 0) same += area;
+    if ((a == 0) != (b == 0)) otherwise += area;
   }
   std::vector<std::pair<std::uint64_t, double>> pairs(shared.begin(), shared.end());
   std::ranges::sort(pairs, [](const auto& p, const auto& q) {
     return p.second != q.second ? p.second > q.second : p.first < q.first;
   });
-  std::array<std::unordered_map<std::uint32_t, bool>, 2> taken;
+  std::array<std::unordered_set<std::uint32_t>, 2> taken;
   for (const auto& [labels, area] : pairs) {
     const auto a = static_cast<std::uint32_t>(labels >> 32);
     const auto b = static_cast<std::uint32_t>(labels);
-    if (taken[0][a] || taken[1][b]) continue;
-    taken[0][a] = taken[1][b] = true;
+    if (taken[0].contains(a) || taken[1].contains(b)) {
+      otherwise += area;
+      continue;
+    }
+    taken[0].insert(a);
+    taken[1].insert(b);
     result.partitions.push_back({a, b});
-    same += area;
   }
-  result.divided_otherwise = all > 0.0 ? std::max(0.0, 1.0 - same / all) : 0.0;
+  result.divided_otherwise = all > 0.0 ? otherwise / all : 0.0;
 }
 
 }  // namespace

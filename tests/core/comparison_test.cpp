@@ -53,7 +53,7 @@ void expect_alike(const Comparison& comparison) {
     EXPECT_EQ(only.sharp_length, 0.0);
     EXPECT_EQ(only.soft_length, 0.0);
   }
-  EXPECT_NEAR(comparison.divided_otherwise, 0.0, 1e-12);
+  EXPECT_EQ(comparison.divided_otherwise, 0.0);
 }
 
 TEST(Compare, VersionIsLikeItself) {
