@@ -56,6 +56,37 @@ TEST_F(MeshViewTest, PictureIsTheScreenButForItsGround) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST_F(MeshViewTest, FitKeepsThePartClearOfScalarBarAndLegend) {
+  const MeshPtr mesh = mesh_of(testing::torus(10.0, 3.0, 60, 30));
+  PictureOptions options = bare(view_.size());
+  for (const QSize& size : {QSize(400, 300), QSize(700, 420), QSize(420, 700)}) {
+    view_.resize(size);
+    options.size = size;
+    for (const auto from : {MeshView::StandardView::top, MeshView::StandardView::front,
+                            MeshView::StandardView::isometric}) {
+      view_.set_mesh(mesh, false);
+      view_.set_field(field_of(*mesh, [](const Point& p) { return 0.5 + p.x() / 30.0; }));
+      view_.set_lines({{1, LineType::c0_convex, {0, 1}}, {2, LineType::gn, {2, 3}}});
+      view_.look_from(from);
+      view_.set_legend_visible(false);
+      options.scalar_bar = false;
+      const QImage part = view_.picture(options);
+      view_.set_legend_visible(true);
+      options.scalar_bar = true;
+      const QImage with_panels = view_.picture(options);
+      qint64 panels = 0, over_part = 0;
+      for (int y = 0; y < size.height(); ++y)
+        for (int x = 0; x < size.width(); ++x)
+          if (part.pixel(x, y) != with_panels.pixel(x, y)) {
+            ++panels;
+            over_part += part.pixel(x, y) != qRgb(255, 255, 255);
+          }
+      EXPECT_GT(panels, 1000);
+      EXPECT_EQ(over_part, 0) << size.width() << " x " << size.height();
+    }
+  }
+}
+
 TEST_F(MeshViewTest, PictureAtTwiceTheSizeShowsTheSame) {
   view_.set_mesh(mesh_of(testing::icosphere(10.0, 4)), true);
   const QSize size = view_.size();

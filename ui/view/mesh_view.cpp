@@ -133,6 +133,43 @@ ToolOverlay MeshView::Impl::tools(const ViewCamera& seen, QSizeF size) const {
   return result;
 }
 
+void MeshView::Impl::frame_clear(const std::vector<Point>& points, QSizeF size) {
+  const auto [bar, legend] = overlay_panels(size, overlay(camera, camera.units_per_pixel(size)));
+  const auto covered = [&](const ViewCamera& seen) {
+    constexpr double room = 4.0;  // pixels about a panel
+    return std::ranges::any_of(points, [&](const Point& point) {
+      const Eigen::Vector3d place = seen.project(point, size);
+      const QPointF at(place.x(), place.y());
+      return std::ranges::any_of(std::array{bar, legend}, [&](const QRectF& panel) {
+        return !panel.isEmpty() && panel.adjusted(-room, -room, room, room).contains(at);
+      });
+    });
+  };
+  // The whole view, or what is left of it beside or below the panels: where the part is largest
+  // and nothing of it is under a panel.
+  const double right = bar.isEmpty() ? size.width() : bar.left();
+  std::vector<QRectF> areas{QRectF(QPointF(0.0, 0.0), size),
+                            QRectF(0.0, 0.0, right, size.height())};
+  if (!legend.isEmpty()) {
+    areas.emplace_back(0.0, legend.bottom(), size.width(), size.height() - legend.bottom());
+    areas.emplace_back(0.0, legend.bottom(), right, size.height() - legend.bottom());
+    areas.emplace_back(legend.right(), 0.0, right - legend.right(), size.height());
+  }
+  ViewCamera best = camera;
+  best.frame(points, size, fit_share, least_height());
+  bool found = false;
+  for (const QRectF& area : areas) {
+    constexpr double least = 0.4;  // of the view; in less room the part may be partly covered
+    if (area.width() < least * size.width() || area.height() < least * size.height()) continue;
+    ViewCamera candidate = camera;
+    candidate.frame(points, size, fit_share, least_height(), area);
+    if ((found && candidate.height() >= best.height()) || covered(candidate)) continue;
+    best = candidate;
+    found = true;
+  }
+  camera = best;
+}
+
 bool MeshView::Impl::field_shown() const {
   return mesh && field && !scene.labels_shown() && scene.shown() != ShownSurface::reference &&
          fits(*field, *mesh);
@@ -405,7 +442,7 @@ void MeshView::fit() {
   for (VertexId v = 0; v < impl_->mesh->vertex_count(); ++v) {
     if (!impl_->mesh->is_isolated(v)) points.push_back(impl_->mesh->point(v));
   }
-  impl_->camera.frame(points, logical_size(*this), fit_share, impl_->least_height());
+  impl_->frame_clear(points, logical_size(*this));
   update();
 }
 

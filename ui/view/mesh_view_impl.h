@@ -126,6 +126,8 @@ struct MeshView::Impl {
   /// What tools and marks draw over a view of `size` seen by `seen`.
   ToolOverlay tools(const ViewCamera& seen, QSizeF size) const;
   bool field_shown() const;
+  /// Frames points so that no scalar bar and no legend lies over them, where there is room.
+  void frame_clear(const std::vector<Point>& points, QSizeF size);
   QString hint_shown() const;
   void show_lines();
   void show_marked_paths();

@@ -446,10 +446,11 @@ double round_length(double most) {
   return power <= most ? power : power / 2.0;
 }
 
-void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
-  const Look look(overlay.dark);
-  painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing |
-                         QPainter::SmoothPixmapTransform);
+namespace {
+
+/// Scalar bar or legend of classes, then legend of lines; where they are.
+std::array<QRectF, 2> paint_panels(QPainter& painter, const Look& look, QSizeF size,
+                                   const Overlay& overlay) {
   QRectF bar;
   if (overlay.field) {
     bar = overlay.field->class_names.isEmpty() ? paint_scalar_bar(painter, look, size, overlay)
@@ -457,6 +458,22 @@ void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
   }
   QRectF legend;
   if (!overlay.line_types.empty()) legend = paint_line_legend(painter, look, size, overlay, bar);
+  return {bar, legend};
+}
+
+}  // namespace
+
+std::array<QRectF, 2> overlay_panels(QSizeF size, const Overlay& overlay) {
+  QImage nowhere(1, 1, QImage::Format_RGBA8888_Premultiplied);
+  QPainter painter(&nowhere);
+  return paint_panels(painter, Look(overlay.dark), size, overlay);
+}
+
+void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
+  const Look look(overlay.dark);
+  painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing |
+                         QPainter::SmoothPixmapTransform);
+  const auto [bar, legend] = paint_panels(painter, look, size, overlay);
   if (overlay.orientation_marker) {
     paint_orientation(painter, look, size, overlay, legend.united(QRectF()));
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
 
+#include <QRectF>
 #include <QSizeF>
 
 #include "ui/view/mesh_view.h"
@@ -27,6 +29,9 @@ struct Overlay {
 
 /// Paints into a view of `size`; what does not fit is left out, nothing overlaps.
 void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay);
+
+/// Where the scalar bar and the legend of lines would be; empty where there is none.
+std::array<QRectF, 2> overlay_panels(QSizeF size, const Overlay& overlay);
 
 /// A number with three significant digits, as an engineer writes it: 0.0123, 4.5·10⁻⁶.
 QString short_number(double value);

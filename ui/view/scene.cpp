@@ -32,7 +32,7 @@ const QColor unlabelled_colour(226, 227, 230);
 const QColor selected_colour(255, 190, 30);
 const QColor highlight_colour(255, 128, 0);
 const QColor ghost_colour(0, 214, 236);
-constexpr float marked_half_width = 5.5F;
+constexpr float marked_half_width = 6.5F;
 
 /// Normals of the vertices make a scan look smooth, those of the faces keep its sharp lines crisp:
 /// where the two differ much the face's is taken.

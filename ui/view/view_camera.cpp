@@ -45,8 +45,10 @@ void ViewCamera::zoom(double factor, QPointF position, QSizeF size, double least
   height_ = height;
 }
 
-void ViewCamera::frame(const std::vector<Point>& points, QSizeF size, double share, double least) {
+void ViewCamera::frame(const std::vector<Point>& points, QSizeF size, double share, double least,
+                       QRectF area) {
   if (points.empty()) return;
+  if (area.isEmpty()) area = QRectF(QPointF(0.0, 0.0), size);
   Eigen::Vector3d low = axes_.transpose() * points.front();
   Eigen::Vector3d high = low;
   for (const Point& point : points) {
@@ -54,9 +56,12 @@ void ViewCamera::frame(const std::vector<Point>& points, QSizeF size, double sha
     low = low.cwiseMin(local);
     high = high.cwiseMax(local);
   }
+  const Eigen::Vector3d extent = high - low;
+  const double unit = std::max(extent.y() / area.height(), extent.x() / area.width()) / share;
+  height_ = std::max(unit * size.height(), least);
+  const QPointF aside = area.center() - QPointF(size.width() / 2, size.height() / 2);
   focus_ = axes_ * ((low + high) / 2);
-  const double aspect = size.width() / size.height();
-  height_ = std::max({(high.y() - low.y()) / share, (high.x() - low.x()) / share / aspect, least});
+  focus_ += units_per_pixel(size) * (aside.y() * up() - aside.x() * right());
 }
 
 }  // namespace arris::ui

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QPointF>
+#include <QRectF>
 #include <QSizeF>
 
 #include "core/mesh/mesh.h"
@@ -35,9 +36,11 @@ class ViewCamera {
   /// Magnifies; what is drawn at `position` stays there. The height stays within `least` and
   /// `most`.
   void zoom(double factor, QPointF position, QSizeF size, double least, double most);
-  /// Puts points in the middle so that their extent on the screen takes `share` of it; keeps the
-  /// direction. Nothing happens without points; the height is at least `least`.
-  void frame(const std::vector<Point>& points, QSizeF size, double share, double least);
+  /// Puts points in the middle of `area` (of the widget; empty: all of it) so that their extent on
+  /// the screen takes `share` of that; keeps the direction. Nothing happens without points; the
+  /// height is at least `least`.
+  void frame(const std::vector<Point>& points, QSizeF size, double share, double least,
+             QRectF area = {});
   void set_height(double height) { height_ = height; }
   bool operator==(const ViewCamera&) const = default;
 

@@ -24,7 +24,7 @@ QString mm(double length) {
 QString holds_text(const Document& document) {
   double length = 0.0;
   for (const LinePtr& line : document.lines.lines) length += line->length;
-  return ComparisonPresenter::tr("%1 lines, %2  ·  %3 partitions")
+  return ComparisonPresenter::tr("%1 lines, %2 · %3 partitions")
       .arg(document.lines.lines.size())
       .arg(mm(length))
       .arg(document.partitions.partitions.size());
@@ -160,6 +160,7 @@ void ComparisonPresenter::begin(std::uint32_t sequence, Document version) {
   version_ = std::move(version);
   line_ = 0;
   comparison_.reset();
+  colours_.clear();
   if (!other_) make_view();
   if (other_mesh) {
     other_->set_mesh(version_.mesh, false);
@@ -263,12 +264,15 @@ void ComparisonPresenter::show_field() {
 void ComparisonPresenter::show_partitions() {
   if (!other_) return;
   if (!elements_->partitions_shown()) {
+    colours_.clear();
     other_->set_face_labels({}, {});
     return;
   }
-  // Partitions that stand for each other have one colour in both views.
+  // Partitions that stand for each other have one colour in both views. While there are none to
+  // stand for these, as when lines are tuned, they keep what they had.
   const Document& now = session_->shown().document;
   std::vector<std::optional<QColor>> given(version_.partitions.partitions.size());
+  if (comparison_ && comparison_->partitions.empty() && colours_.size() == given.size()) return;
   if (comparison_) {
     const std::vector<QColor> colours = colours_of_partitions(now);
     const std::vector<std::uint32_t> place = places_of_partitions(version_);
@@ -279,7 +283,10 @@ void ComparisonPresenter::show_partitions() {
       if (const auto found = of_now.find(after); found != of_now.end())
         given[place[before] - 1] = colours[found->second];
   }
-  show_partitions_in(*other_, version_, colours_of_partitions(version_, given));
+  std::vector<QColor> colours = colours_of_partitions(version_, given);
+  if (!colours.empty() && colours == colours_) return;
+  colours_ = std::move(colours);
+  show_partitions_in(*other_, version_, colours_);
 }
 
 void ComparisonPresenter::show_headers() {
@@ -290,7 +297,7 @@ void ComparisonPresenter::show_headers() {
   QString holds = holds_text(now);
   if (comparison_)
     holds +=
-        tr("  ·  %1 % of the area differs")
+        tr(" · %1 % of the area differs")
             .arg(QString::fromStdString(fixed_text(100.0 * comparison_->divided_otherwise, 1)));
   side_by_side_->set_figures(1, holds,
                              comparison_ ? only_text(comparison_->only[1]) : tr("comparing…"));

@@ -75,7 +75,9 @@ class ComparisonPresenter : public QObject {
   Document version_;
   std::uint32_t line_ = 0;  // selected in the other view
   bool marks_shown_ = true;
-  bool plain_ = false;                                             // no field in the other view
+  bool plain_ = false;  // no field in the other view
+  /// Of its partitions, as shown.
+  std::vector<QColor> colours_;
   std::optional<std::pair<std::uint32_t, Document>> left_behind_;  // while swapping
 
   LatestWork work_;
