@@ -1,43 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <utility>
 #include <vector>
 
-#include <QPointF>
-#include <QString>
 #include <QWidget>
 
-#include "ui/view/colour_scale.h"
+#include "ui/panels/histogram_chart.h"
 
 namespace arris::ui {
-
-/// Distribution of the shown field, weighted by area.
-struct Histogram {
-  std::vector<double> edges;    ///< n + 1 bin edges, increasing.
-  std::vector<double> weights;  ///< n bins: share of the area, 0 to 1.
-  QString title;                ///< "Kabs (1/mm²)".
-  bool logarithmic = false;     ///< Bin edges are spaced evenly in the logarithm.
-};
-
-/// A threshold as a handle on the histogram.
-struct ThresholdHandle {
-  QString name;     ///< "TV_IH", "Kmin", "Kmax".
-  QString tooltip;  ///< What it does.
-  double value = 0.0;
-  double least = 0.0, most = 1.0;  ///< Range it may be dragged in.
-  QString reading;  ///< Second reading beside the number, e.g. "r = 12.3 mm"; may be empty.
-};
-
-/// A second curve over the same axis, on a scale of its own at the right: what each threshold would
-/// give.
-struct HistogramCurve {
-  QString label;                ///< "lines"; empty: there is no curve.
-  std::vector<QPointF> points;  ///< Threshold and count, by increasing threshold; none: to come.
-  std::optional<std::pair<double, double>> plateau;  ///< Where the count hardly changes.
-  QString plateau_text;                              ///< "steady from 24° to 31°"
-};
 
 /// The bottom panel: histogram with the colour map under it, log counts, and the thresholds as
 /// handles. Handles move by mouse (with Shift ten times finer), by wheel and by keyboard (Tab to a
