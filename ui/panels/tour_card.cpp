@@ -264,12 +264,14 @@ class TourButton : public QPushButton {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QColor accent = palette().color(QPalette::Highlight);
-    const QColor text = palette().color(QPalette::WindowText), card = card_ground(palette());
+    const QColor text = palette().color(QPalette::Active, QPalette::WindowText);
+    const QColor card = card_ground(palette());
     const bool main = look_ == Look::main && isEnabled();
     const double pressed = !isEnabled() ? 0.0 : isDown() ? 0.2 : underMouse() ? 0.1 : 0.0;
     const QRectF face = QRectF(rect()).adjusted(1, 1, -1, -1);
-    painter.setPen(look_ == Look::quiet ? QPen(Qt::NoPen)
-                                        : QPen(main ? accent : mix(card, text, 0.35), 1.0));
+    painter.setPen(look_ == Look::quiet
+                       ? QPen(Qt::NoPen)
+                       : QPen(main ? accent : mix(card, text, isEnabled() ? 0.35 : 0.2), 1.0));
     painter.setBrush(main ? mix(accent, Qt::black, pressed) : mix(card, text, pressed));
     painter.drawRoundedRect(face, 5, 5);
     if (hasFocus()) {

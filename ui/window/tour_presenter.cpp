@@ -79,7 +79,7 @@ const std::vector<TourStep>& TourPresenter::steps() {
        tr("Mend by hand what no threshold gets right."),
        tr("What you correct stays corrected when thresholds move; Ctrl+Z takes it back. F7 goes "
           "through what is left to do, place by place."),
-       tr("click a line on the part, then press <b>Del</b>."),
+       tr("click a line on the part, then press&nbsp;<b>Del</b>."),
        tr("your correction is kept, whatever the thresholds."),
        "view",
        {"lines", "partitions", "boundaries", "steps", "worklist"},
@@ -261,6 +261,18 @@ void TourPresenter::refresh() {
   show_page();
 }
 
+QString TourPresenter::task() const {
+  const TourStep& step = steps()[step_];
+  if (step.is_done == &TourPresenter::has_corrected &&
+      session_->shown().document.lines.lines.empty())
+    return tr("press <b>F5</b> first: there are no lines yet.");
+  if (!step.is_done && !has_found())
+    return tr(
+        "press <b>F5</b>, so that the partitions are up to date; save what you want to keep, "
+        "then finish.");
+  return step.task;
+}
+
 void TourPresenter::show_page() {
   TourPage page;
   if (state_ == State::offering) {
@@ -271,14 +283,11 @@ void TourPresenter::show_page() {
   } else {
     const TourStep& step = steps()[step_];
     const bool last = step_ + 1 == steps().size();
-    const bool no_lines = step.is_done == &TourPresenter::has_corrected &&
-                          session_->shown().document.lines.lines.empty();
     page.number = static_cast<int>(step_) + 1;
     page.count = static_cast<int>(steps().size());
     page.title = step.title;
     page.text = step.gist.toHtmlEscaped() + " " + step.text;
-    page.task =
-        no_lines && !done_ ? tr("press <b>F5</b> first: there are no lines yet.") : step.task;
+    page.task = task();
     page.result = step.result;
     page.done = done_;
     page.back = tr("Back");

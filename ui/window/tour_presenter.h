@@ -72,6 +72,8 @@ class TourPresenter : public QObject {
   void refresh();
   void show_page();
   void place();
+  /// Of the step shown, or what has to come before it.
+  QString task() const;
   QWidget* target() const;
   bool has_looked() const;
   bool has_found() const;
