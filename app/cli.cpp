@@ -17,6 +17,7 @@
 #endif
 
 #include "core/base/number_text.h"
+#include "core/document/comparison.h"
 #include "core/document/document.h"
 #include "core/document/export.h"
 #include "core/document/history.h"
@@ -111,6 +112,9 @@ nlohmann::json summary_of(const History& history) {
     ++types[std::string(name_of(boundary->type))];
   summary["boundaries"] = types;
   summary["document_hash"] = hash_of(document);
+  nlohmann::json versions = nlohmann::json::object();
+  for (const auto& [sequence, name] : history.names()) versions[name] = sequence;
+  summary["versions"] = versions;
   return summary;
 }
 
@@ -247,11 +251,35 @@ int simplify_scan(const std::string& scan, const std::string& output,
   return 0;
 }
 
-int replay_file(const std::string& operations, const std::string& scan, const std::string& folder) {
+Result<Replay> replay_loudly(const std::string& operations, const std::string& scan) {
+  Result<Replay> done = replay(operations, {scan}, progress_context());
+  if (done)
+    for (const std::string& warning : done->warnings) std::cerr << "arris-cli: " << warning << "\n";
+  return done;
+}
+
+/// The row of a version by its name. Errors: there is none; says which there are.
+Result<std::uint32_t> row_of(const History& history, const std::string& name,
+                             const std::string& operations) {
+  if (const auto row = history.find_name(name)) return *row;
+  std::string known;
+  for (const auto& [sequence, other] : history.names())
+    known += (known.empty() ? "“" : ", “") + other + "”";
+  return fail(operations + " has no version “" + name + "”; " +
+              (known.empty() ? "none is named." : "there is " + known + "."));
+}
+
+int replay_file(const std::string& operations, const std::string& scan, const std::string& version,
+                const std::string& folder) {
   const auto start = std::chrono::steady_clock::now();
-  const Result<Replay> done = replay(operations, {scan}, progress_context());
+  Result<Replay> done = replay_loudly(operations, scan);
   if (!done) return complain(done.error());
-  for (const std::string& warning : done->warnings) std::cerr << "arris-cli: " << warning << "\n";
+  if (!version.empty()) {
+    const Result<std::uint32_t> row = row_of(done->history, version, operations);
+    if (!row) return complain(row.error());
+    if (const auto moved = done->history.travel(*row, progress_context()); !moved)
+      return complain(moved.error());
+  }
   if (done->history.current().empty())
     return complain({operations + " ends with no part open; there is nothing to write.", false});
   nlohmann::json summary = summary_of(done->history);
@@ -261,6 +289,57 @@ int replay_file(const std::string& operations, const std::string& scan, const st
   if (const auto written = write_results(folder, done->history, summary); !written)
     return complain(written.error());
   print_outcome(folder, summary);
+  return 0;
+}
+
+int compare_versions(const std::string& operations, const std::array<std::string, 2>& versions,
+                     bool as_json) {
+  Result<Replay> done = replay_loudly(operations, "");
+  if (!done) return complain(done.error());
+  const History& history = done->history;
+  std::array<Document, 2> documents;
+  std::array<nlohmann::json, 2> summaries;
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::uint32_t row = history.head();
+    if (!versions[side].empty()) {
+      const Result<std::uint32_t> found = row_of(history, versions[side], operations);
+      if (!found) return complain(found.error());
+      row = *found;
+    }
+    Result<Document> document = history.document_at(row, progress_context());
+    if (!document) return complain(document.error());
+    double length = 0.0;
+    for (const LinePtr& line : document->lines.lines) length += line->length;
+    summaries[side] = {{"version", versions[side].empty() ? "the end" : versions[side]},
+                       {"row", row},
+                       {"lines", document->lines.lines.size()},
+                       {"length", length},
+                       {"partitions", document->partitions.partitions.size()},
+                       {"assigned_area_share", assigned_share(*document)}};
+    documents[side] = std::move(*document);
+  }
+  const Result<Comparison> comparison = compare(documents[0], documents[1], progress_context());
+  if (!comparison) return complain(comparison.error());
+  for (std::size_t side = 0; side < 2; ++side) {
+    summaries[side]["only_here"] = {{"sharp_length", comparison->only[side].sharp_length},
+                                    {"soft_length", comparison->only[side].soft_length}};
+  }
+  if (as_json) {
+    std::cout << nlohmann::json{{"versions", summaries},
+                                {"tolerance", comparison->tolerance},
+                                {"divided_otherwise", comparison->divided_otherwise}}
+                     .dump(2)
+              << "\n";
+    return 0;
+  }
+  for (const nlohmann::json& s : summaries)
+    std::cout << s["version"].get<std::string>() << ": " << s["lines"] << " lines ("
+              << number_text(s["length"], 4) << " mm), " << s["partitions"]
+              << " partitions; only here " << number_text(s["only_here"]["sharp_length"], 4)
+              << " mm of sharp lines, " << number_text(s["only_here"]["soft_length"], 4)
+              << " mm of other borders\n";
+  std::cout << fixed_text(100.0 * comparison->divided_otherwise, 1)
+            << " % of the area is divided otherwise\n";
   return 0;
 }
 
@@ -389,6 +468,17 @@ int main(int argc, char** argv) {
   replay_command->add_option("-o,--output", output, "The folder for the results")->required();
   std::string other_scan;
   replay_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
+  std::string at;
+  replay_command->add_option("--at", at, "Write the version of this name, not the last state");
+
+  CLI::App* compare_command = app.add_subcommand(
+      "compare", "Where two named versions of a session divide the part otherwise");
+  std::array<std::string, 2> versions;
+  compare_command->add_option("OPERATIONS", operations, "A session, as the window saves it")
+      ->required();
+  compare_command->add_option("VERSION", versions[0], "The name of a version")->required();
+  compare_command->add_option("OTHER", versions[1], "Another one; left out: the last state");
+  compare_command->add_flag("--json", as_json, "All numbers as JSON");
 
   CLI::App* sample_command = app.add_subcommand("sample", "Write the sample mould as a PLY");
   sample_command->add_option("-o,--output", output, "The PLY to write")->required();
@@ -428,6 +518,7 @@ int main(int argc, char** argv) {
   if (*curvature_command) return curvature(scan, output);
   if (*simplify_command) return simplify_scan(scan, output, simplification);
   if (*segment_command) return segment(scan, output, segmentation);
-  if (*replay_command) return replay_file(operations, other_scan, output);
+  if (*replay_command) return replay_file(operations, other_scan, at, output);
+  if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);
 }

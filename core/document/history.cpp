@@ -3,8 +3,17 @@
 #include <algorithm>
 
 #include "core/document/journal.h"
+#include "core/document/parameters.h"
 
 namespace arris {
+
+namespace {
+
+tl::unexpected<Error> no_row(std::uint32_t sequence) {
+  return fail("There is no step " + std::to_string(sequence) + " in the history.");
+}
+
+}  // namespace
 
 History::History(std::size_t budget) : budget_(budget), redo_child_(1, 0) {}
 History::~History() = default;
@@ -38,8 +47,6 @@ Result<void> History::run(const Operation& operation, const Context& context) {
 bool History::can_redo() const { return redo_child_[head_] != 0; }
 
 Result<void> History::travel(std::uint32_t sequence, const Context& context) {
-  if (sequence > entries_.size())
-    return fail("There is no step " + std::to_string(sequence) + " in the history.");
   if (sequence == head_) return {};
   Result<Document> document = document_at(sequence, context);
   if (!document) return tl::unexpected<Error>(document.error());
@@ -57,6 +64,39 @@ Result<void> History::undo(const Context& context) {
 Result<void> History::redo(const Context& context) {
   if (!can_redo()) return fail("There is nothing to redo.");
   return travel(redo_child_[head_], context);
+}
+
+std::optional<std::uint32_t> History::find_name(const std::string& name) const {
+  for (const auto& [sequence, of_row] : names_)
+    if (of_row == name) return sequence;
+  return std::nullopt;
+}
+
+Result<void> History::set_name(std::uint32_t sequence, const std::string& name) {
+  if (sequence == 0 || sequence > entries_.size()) return no_row(sequence);
+  constexpr const char* blanks = " \t\r\n";
+  const std::size_t begin = std::min(name.find_first_not_of(blanks), name.size());
+  const std::string wanted = name.substr(begin, name.find_last_not_of(blanks) + 1 - begin);
+  constexpr std::size_t longest = 80;
+  const bool is_line =
+      std::ranges::none_of(wanted, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (wanted.size() > longest || !is_line || !is_utf8(wanted))
+    return fail("The name of a version is one line of at most " + std::to_string(longest) +
+                " bytes of UTF-8.");
+  const std::optional<std::uint32_t> other = find_name(wanted);
+  if (other && *other != sequence)
+    return fail("There is a version “" + wanted +
+                "” already: " + describe(entries_[*other - 1].operation) + " (row " +
+                std::to_string(*other) + "). Choose another name.");
+  const auto known = names_.find(sequence);
+  if ((known == names_.end() ? std::string() : known->second) == wanted) return {};
+  if (journal_)
+    if (const auto written = journal_->append_name(sequence, wanted); !written) return written;
+  if (wanted.empty())
+    names_.erase(sequence);
+  else
+    names_[sequence] = wanted;
+  return {};
 }
 
 std::vector<std::uint32_t> History::line_of_travel() const {
@@ -108,7 +148,8 @@ void History::keep_budget() {
   }
 }
 
-Result<Document> History::document_at(std::uint32_t sequence, const Context& context) {
+Result<Document> History::document_at(std::uint32_t sequence, const Context& context) const {
+  if (sequence > entries_.size()) return no_row(sequence);
   std::vector<std::uint32_t> missing;
   Document document;
   for (std::uint32_t s = sequence; s != 0; s = entries_[s - 1].parent) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,19 @@ class History {
   Result<void> undo(const Context& context = {});
   Result<void> redo(const Context& context = {});
 
+  /// The document as it was after a row (0: the empty one), without going there. Errors as
+  /// travel().
+  Result<Document> document_at(std::uint32_t sequence, const Context& context = {}) const;
+
+  /// Names given to rows: versions to come back to and to compare, wherever the head is.
+  const std::map<std::uint32_t, std::string>& names() const { return names_; }
+  /// Names a row, or takes its name away where `name` is empty. Blanks about it do not count; it is
+  /// one line of at most 80 bytes. Errors: no such row, another row has this name, no such text,
+  /// the journal cannot be written; nothing changed then.
+  Result<void> set_name(std::uint32_t sequence, const std::string& name);
+  /// The row of this name; absent: none.
+  std::optional<std::uint32_t> find_name(const std::string& name) const;
+
   /// The rows from the first edit through the head to where redo would lead at last.
   std::vector<std::uint32_t> line_of_travel() const;
 
@@ -70,11 +84,11 @@ class History {
 
   void go(std::uint32_t sequence, Document document);
   void keep_budget();
-  Result<Document> document_at(std::uint32_t sequence, const Context& context);
 
   std::size_t budget_;
   std::vector<HistoryEntry> entries_;               // entries_[k] has sequence k + 1
   std::vector<std::optional<Snapshot>> snapshots_;  // of entries_[k]
+  std::map<std::uint32_t, std::string> names_;      // by sequence
   std::vector<std::uint32_t> redo_child_;           // of sequence s: the child last visited, or 0
   Document current_;
   std::uint32_t head_ = 0;

@@ -54,6 +54,10 @@ std::string head_text(std::uint32_t sequence) {
   return nlohmann::json{{"head", sequence}}.dump() + "\n";
 }
 
+std::string name_text(std::uint32_t sequence, const std::string& name) {
+  return nlohmann::json{{"name", name}, {"row", sequence}}.dump() + "\n";
+}
+
 }  // namespace
 
 Result<std::shared_ptr<Journal>> Journal::open(const std::string& path) {
@@ -87,6 +91,10 @@ Result<void> Journal::append(const HistoryEntry& entry) { return append_line(row
 
 Result<void> Journal::append_head(std::uint32_t sequence) {
   return append_line(head_text(sequence));
+}
+
+Result<void> Journal::append_name(std::uint32_t sequence, const std::string& name) {
+  return append_line(name_text(sequence, name));
 }
 
 Result<void> Journal::append_line(const std::string& line) {
@@ -147,6 +155,15 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
         return fail(where + moved.error().message);
       continue;
     }
+    if (json.contains("row")) {
+      const Result<std::uint32_t> row = to_row("row");
+      if (!row) return tl::unexpected<Error>(row.error());
+      const auto name = json.find("name");
+      if (name == json.end() || !name->is_string()) return fail(where + "'name' is no text.");
+      if (const auto named = result.history.set_name(*row, name->get<std::string>()); !named)
+        return fail(where + named.error().message);
+      continue;
+    }
     const bool is_row =
         json.contains("sequence") && json.contains("parent") && json["operation"].is_object();
     Result<Operation> operation = Operation::from_json(is_row ? json["operation"] : json);
@@ -183,6 +200,7 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
 std::string journal_text(const History& history) {
   std::string text;
   for (const HistoryEntry& entry : history.entries()) text += row_text(entry);
+  for (const auto& [sequence, name] : history.names()) text += name_text(sequence, name);
   if (history.head() != history.entries().size()) text += head_text(history.head());
   return text;
 }

@@ -15,6 +15,7 @@ namespace arris {
 /// returns:
 ///   {"sequence": 3, "parent": 2, "operation": {...}, "hash": "..."}   an edit
 ///   {"head": 2}                                                      undo, redo or travel
+///   {"name": "tight", "row": 3}                          a version's name; "" takes it away
 /// A last line cut short by a crash is left out when the journal is read again.
 class Journal {
  public:
@@ -26,6 +27,7 @@ class Journal {
 
   Result<void> append(const HistoryEntry& entry);
   Result<void> append_head(std::uint32_t sequence);
+  Result<void> append_name(std::uint32_t sequence, const std::string& name);
   const std::string& path() const { return path_; }
 
  private:
@@ -51,8 +53,8 @@ struct Replay {
 Result<Replay> replay(const std::string& path, const ReplayOptions& options = {},
                       const Context& context = {});
 
-/// The journal of a history as text, rows in order and a last row for the head where it is not the
-/// last one. `operations.jsonl` is this.
+/// The journal of a history as text: rows in order, names of versions, and the head where it is not
+/// the last row. `operations.jsonl` is this.
 std::string journal_text(const History& history);
 
 }  // namespace arris

@@ -7,6 +7,12 @@
 
 namespace arris {
 
+bool is_utf8(const std::string& text) {
+  const std::string kept =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::ignore);
+  return nlohmann::json::parse(kept).get<std::string>() == text;
+}
+
 const nlohmann::json* ParameterReader::take(const std::string& name) {
   known_.insert(name);
   const auto found = given_.find(name);

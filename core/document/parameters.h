@@ -11,6 +11,9 @@
 
 namespace arris {
 
+/// Whether a text can be written down as JSON, and so in a journal.
+bool is_utf8(const std::string& text);
+
 /// Reads the parameters of an operation with types, ranges and defaults, and collects them into the
 /// resolved object. The first fault is kept; finish() returns it, or complains of unknown names.
 class ParameterReader {

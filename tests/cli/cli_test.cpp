@@ -569,6 +569,34 @@ TEST_F(Cli, ReplayTakesTreatmentsByHand) {
                    "there is no line 1");
 }
 
+TEST_F(Cli, NamedVersionsAreComparedAndWritten) {
+  const std::string part = small_part();
+  std::string text = json{{"operation", "open"}, {"file", part}}.dump() + "\n" +
+                     json{{"operation", "find_sharp_lines"}}.dump() + "\n";
+  expect_done({"replay", folder.write("plain.jsonl", text), "-o", folder.file("plain")});
+  text = folder.read("plain/operations.jsonl") + json{{"name", "as found"}, {"row", 2}}.dump() +
+         "\n" + json{{"operation", "delete_lines"}, {"lines", {1}}}.dump() + "\n";
+  const std::string session = folder.write("session.jsonl", text);
+
+  expect_done({"replay", session, "--at", "as found", "-o", folder.file("version")});
+  EXPECT_EQ(summary("version")["document_hash"], summary("plain")["document_hash"]);
+  EXPECT_EQ(summary("version")["versions"], (json{{"as found", 2}}));
+  EXPECT_EQ(folder.read("version/lines.obj"), folder.read("plain/lines.obj"));
+
+  const Outcome told = run({"compare", session, "as found", "--json"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  const json found = json::parse(told.out);
+  const double deleted = summary("plain")["lines"]["length"].get<double>() -
+                         found["versions"][1]["length"].get<double>();
+  EXPECT_NEAR(found["versions"][0]["only_here"]["sharp_length"].get<double>(), deleted,
+              1e-9 + 2.0 * found["tolerance"].get<double>());
+  EXPECT_EQ(found["versions"][1]["only_here"]["sharp_length"], 0.0);
+  expect_done({"compare", session, "as found", "as found"});
+  expect_bad_input({"compare", session, "tight"}, "as found");
+  expect_bad_input({"replay", session, "--at", "tight", "-o", folder.file("no")}, "tight");
+  expect_bad_usage({"compare", session});
+}
+
 TEST_F(Cli, SampleMouldThereAndBack) {
   const std::string mould = folder.file("mould.ply");
   expect_done({"sample", "-o", mould});

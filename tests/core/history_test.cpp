@@ -359,6 +359,71 @@ TEST_F(Travel, JournalOnDiskGivesBackARandomSession) {
   EXPECT_EQ(hash_of(again.history.current()), hash_of(history.current()));
 }
 
+TEST_F(Travel, VersionKeepsItsNameWhereverTheHeadIs) {
+  const std::string journal = folder.file("journal.jsonl");
+  History history;
+  history.set_journal(value_of(Journal::open(journal)));
+  run_ok(history, open());
+  run_ok(history, lines(30.0));
+  ok(history.set_name(2, "  tight \n"));
+  EXPECT_EQ(history.names().at(2), "tight") << "blanks about a name do not count";
+  EXPECT_EQ(history.find_name("tight"), 2u);
+  const std::string tight = hash_of(history.current());
+  ok(history.undo());
+  run_ok(history, lines(50.0));
+  ok(history.set_name(3, "größer"));
+  // On the other branch, not on the way of undo and redo, and there all the same.
+  EXPECT_EQ(std::ranges::count(history.line_of_travel(), 2u), 0);
+  EXPECT_EQ(hash_of(value_of(history.document_at(2))), tight);
+  EXPECT_EQ(history.head(), 3u) << "looking is not travelling";
+  EXPECT_TRUE(value_of(history.document_at(0)).empty());
+  EXPECT_FALSE(history.document_at(4));
+
+  for (const Replay& again :
+       {value_of(replay(journal)), value_of(replay(folder.write("b", journal_text(history))))}) {
+    EXPECT_TRUE(again.warnings.empty());
+    EXPECT_EQ(again.history.names(), history.names());
+    EXPECT_EQ(again.history.head(), history.head());
+  }
+  ok(history.set_name(2, ""));
+  EXPECT_EQ(history.names().size(), 1u);
+  EXPECT_EQ(value_of(replay(journal)).history.names(), history.names());
+}
+
+TEST_F(Travel, NameThatCannotBeIsRefusedAndNothingChanges) {
+  const std::string journal = folder.file("journal.jsonl");
+  History history;
+  history.set_journal(value_of(Journal::open(journal)));
+  run_ok(history, open());
+  run_ok(history, lines(30.0));
+  ok(history.set_name(1, "as scanned"));
+  const std::string before = folder.read("journal.jsonl");
+  for (const auto& [row, name] :
+       std::vector<std::pair<std::uint32_t, std::string>>{{2, "as scanned"},
+                                                          {0, "x"},
+                                                          {3, "x"},
+                                                          {2, "two\nlines"},
+                                                          {2, "\xff"},
+                                                          {2, std::string(81, 'x')}}) {
+    const Result<void> named = history.set_name(row, name);
+    ASSERT_FALSE(named) << name;
+    EXPECT_TRUE(named.error().message.ends_with(".")) << named.error().message;
+  }
+  ok(history.set_name(1, "as scanned"));  // is so already
+  EXPECT_EQ(folder.read("journal.jsonl"), before);
+  EXPECT_EQ(history.names().size(), 1u);
+}
+
+TEST_F(Travel, NamedVersionWhoseSnapshotWasDroppedComesBackByReplay) {
+  History history(0);
+  run_ok(history, open());
+  run_ok(history, lines(30.0));
+  const std::string hash = hash_of(history.current());
+  ok(history.set_name(2, "first"));
+  run_ok(history, lines(50.0));
+  EXPECT_EQ(hash_of(value_of(history.document_at(2))), hash);
+}
+
 class JournalFile : public Travel {
  protected:
   /// The journal of open, lines, areas.
@@ -431,6 +496,9 @@ TEST_F(JournalFile, FaultsAreErrorsWithTheLine) {
                "\"flip_orientation\"}}\n",
        "line 2"},
       {first + "{\"sequence\": 2, \"parent\": 1, \"operation\": 5}\n", "line 2"},
+      {first + "{\"name\": \"x\", \"row\": 7}\n", "line 2"},
+      {first + "{\"name\": 5, \"row\": 1}\n", "line 2"},
+      {first + "{\"row\": 1}\n", "line 2"},
       {"{\"operation\": \"flip_orientation\"}\n", "line 1"},
   };
   for (const auto& [text, shown] : faults) {

@@ -19,19 +19,13 @@ namespace {
 
 using nlohmann::json;
 using testing::applied;
+using testing::cube_document;
 using testing::document_of;
 
 /// A plate with a straight step line along y at x = 0 whose angle falls off towards the ends.
 Document roof_document(double angle = 0.8) {
   const Document document = document_of(testing::roof(angle, 5.0, 20.0, 1.0));
   return applied(document, {"find_sharp_lines", {{"angle", 20.0}, {"min_length", 0.0}}});
-}
-
-Document cube_document() {
-  Document document = document_of(testing::divided_cube(10.0, 10));
-  document = applied(document, {"find_sharp_lines", {{"angle", 30.0}, {"min_length", 0.0}}});
-  return applied(document, {"find_partitions",
-                            {{"intervals", {{0.0, 1.0}}}, {"min_faces", 1}, {"fill_holes", 0}}});
 }
 
 std::vector<EdgeId> sharp_set(const Document& document) {

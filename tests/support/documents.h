@@ -71,4 +71,14 @@ inline Document applied(const Document& document, const Operation& operation) {
   return value_of(apply(document, operation));
 }
 
+/// A document divided as a cube is: at its sharp edges, into sides.
+inline Document divided_at_edges(const Document& document) {
+  return applied(
+      applied(document, {"find_sharp_lines", {{"angle", 30.0}, {"min_length", 0.0}}}),
+      {"find_partitions", {{"intervals", {{0.0, 1.0}}}, {"min_faces", 1}, {"fill_holes", 0}}});
+}
+
+/// A cube of 10 with its 12 edges as lines and its 6 sides as partitions.
+inline Document cube_document() { return divided_at_edges(document_of(divided_cube(10.0, 10))); }
+
 }  // namespace arris::testing

@@ -128,6 +128,24 @@ void MutedLabel::paintEvent(QPaintEvent*) {
   painter.drawText(contentsRect(), flags, text());
 }
 
+ElidedLabel::ElidedLabel(QWidget* parent) : MutedLabel({}, parent) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+}
+
+void ElidedLabel::set_whole(const QString& text) {
+  whole_ = text;
+  setToolTip(text);
+  setAccessibleName(text);
+  elide();
+}
+
+void ElidedLabel::resizeEvent(QResizeEvent* event) {
+  MutedLabel::resizeEvent(event);
+  elide();
+}
+
+void ElidedLabel::elide() { setText(fontMetrics().elidedText(whole_, Qt::ElideRight, width())); }
+
 NumberEdit::NumberEdit(QWidget* parent) : QLineEdit(parent) {
   setLocale(QLocale::c());
   setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("0.0000")));

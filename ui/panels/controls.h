@@ -47,6 +47,22 @@ class MutedLabel : public QLabel {
   void paintEvent(QPaintEvent* event) override;
 };
 
+/// Secondary text on one line, cut off with an ellipsis where there is no room; whole in the
+/// tooltip.
+class ElidedLabel : public MutedLabel {
+  Q_OBJECT
+ public:
+  explicit ElidedLabel(QWidget* parent = nullptr);
+  void set_whole(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void elide();
+  QString whole_;
+};
+
 /// Line that holds a number. Text that is none, or that the owner marks as a mistake, is underlined
 /// in red and says why in the tooltip.
 class NumberEdit : public QLineEdit {

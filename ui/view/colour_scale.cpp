@@ -139,7 +139,8 @@ std::array<std::uint8_t, 3> ColourScale::colour(double value) const {
 }
 
 std::vector<QColor> partition_colours(std::size_t count,
-                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours) {
+                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours,
+                                      const std::vector<std::optional<QColor>>& given) {
   std::vector<std::vector<std::uint32_t>> adjacent(count);
   for (const auto& [a, b] : neighbours) {
     if (a == b || a >= count || b >= count) continue;
@@ -151,8 +152,19 @@ std::vector<QColor> partition_colours(std::size_t count,
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> chosen(count, none);
   std::vector<std::size_t> uses(soft_colours.size(), 0);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i]) continue;
+    std::size_t k = 0;
+    while (k < soft_colours.size() + count && soft_colour(k) != *given[i]) ++k;
+    const bool clashes =
+        std::ranges::any_of(adjacent[i], [&](std::uint32_t j) { return chosen[j] == k; });
+    if (k == soft_colours.size() + count || clashes) continue;
+    chosen[i] = k;
+    if (k < uses.size()) ++uses[k];
+  }
   std::vector<bool> taken;
   for (std::size_t i = 0; i < count; ++i) {
+    if (chosen[i] != none) continue;
     taken.assign(soft_colours.size() + adjacent[i].size() + 1, false);
     for (const std::uint32_t j : adjacent[i]) {
       if (chosen[j] != none && chosen[j] < taken.size()) taken[chosen[j]] = true;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <QColor>
@@ -40,8 +41,10 @@ struct ColourScale {
 };
 
 /// Soft, distinct colours for partitions: neighbours never alike. `neighbours` lists the adjacent
-/// pairs of partition indices (0 .. count-1); the result has one colour for each.
+/// pairs of partition indices (0 .. count-1); the result has one colour for each. `given` (empty,
+/// or one for each) are kept, but for those that a neighbour before has, too.
 std::vector<QColor> partition_colours(std::size_t count,
-                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours);
+                                      const std::vector<std::array<std::uint32_t, 2>>& neighbours,
+                                      const std::vector<std::optional<QColor>>& given = {});
 
 }  // namespace arris::ui

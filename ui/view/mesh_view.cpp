@@ -88,7 +88,7 @@ Overlay MeshView::Impl::overlay(const ViewCamera& seen, double units) const {
     result.field = field;
     result.field_has_undefined = field_has_undefined;
   }
-  if (lines_visible) result.line_types = line_types;
+  if (lines_visible && legend_visible) result.line_types = line_types;
   result.scale_bar = mesh != nullptr;
   result.orientation_marker = mesh != nullptr;
   result.units_per_pixel = units;
@@ -138,6 +138,35 @@ bool MeshView::Impl::field_shown() const {
          fits(*field, *mesh);
 }
 
+std::vector<std::vector<VertexId>> MeshView::Impl::visible_runs(
+    const std::vector<VertexId>& path) const {
+  std::vector<std::vector<VertexId>> runs;
+  std::vector<VertexId> run{path.front()};
+  const auto end_run = [&](VertexId next) {
+    if (run.size() > 1) runs.push_back(std::move(run));
+    run = {next};
+  };
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const auto edge = mesh->find_edge(path[k - 1], path[k]);
+    if (edge && !shows(mesh->edge_faces(*edge), hidden))
+      end_run(path[k]);
+    else
+      run.push_back(path[k]);
+  }
+  end_run(no_id);
+  return runs;
+}
+
+void MeshView::Impl::show_marked_paths() {
+  std::vector<std::vector<VertexId>> shown;
+  for (const std::vector<VertexId>& path : marked_paths)
+    if (hidden.empty())
+      shown.push_back(path);
+    else
+      std::ranges::move(visible_runs(path), std::back_inserter(shown));
+  scene.set_marked_paths(shown);
+}
+
 void MeshView::Impl::show_lines() {
   shown_lines.clear();
   line_types.clear();
@@ -147,19 +176,8 @@ void MeshView::Impl::show_lines() {
       shown_lines.push_back(line);
       continue;
     }
-    ViewLine run{line.id, line.type, {line.vertices.front()}};
-    const auto end_run = [&](VertexId next) {
-      if (run.vertices.size() > 1) shown_lines.push_back(run);
-      run.vertices = {next};
-    };
-    for (std::size_t k = 1; k < line.vertices.size(); ++k) {
-      const auto edge = mesh->find_edge(line.vertices[k - 1], line.vertices[k]);
-      if (edge && !shows(mesh->edge_faces(*edge), hidden))
-        end_run(line.vertices[k]);
-      else
-        run.vertices.push_back(line.vertices[k]);
-    }
-    end_run(no_id);
+    for (std::vector<VertexId>& run : visible_runs(line.vertices))
+      shown_lines.push_back({line.id, line.type, std::move(run)});
   }
   scene.set_lines(shown_lines);
   scene.set_selected_lines(shown_lines, selected_lines);
@@ -244,6 +262,7 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
   impl_->shown_lines.clear();
   impl_->line_types.clear();
   impl_->selected_lines.clear();
+  impl_->marked_paths.clear();
   impl_->hidden.clear();
   impl_->field.reset();
   impl_->brush_at.reset();
@@ -290,6 +309,7 @@ void MeshView::set_hidden_faces(std::vector<bool> hidden) {
   impl_->hidden = hidden;
   impl_->scene.set_hidden_faces(std::move(hidden));
   impl_->show_lines();
+  impl_->show_marked_paths();
   update();
 }
 
@@ -303,12 +323,15 @@ void MeshView::set_section(const std::optional<Section>& section) {
 const std::optional<Section>& MeshView::section() const { return impl_->section; }
 
 void MeshView::set_ghost_paths(std::vector<std::vector<VertexId>> paths) {
-  const std::size_t count = impl_->mesh ? impl_->mesh->vertex_count() : 0;
-  std::erase_if(paths, [&](const std::vector<VertexId>& path) {
-    return path.size() < 2 ||
-           std::any_of(path.begin(), path.end(), [&](VertexId v) { return v >= count; });
-  });
+  std::erase_if(paths, [&](const std::vector<VertexId>& path) { return !impl_->has(path); });
   impl_->scene.set_ghost_paths(paths);
+  update();
+}
+
+void MeshView::set_marked_paths(std::vector<std::vector<VertexId>> paths) {
+  std::erase_if(paths, [&](const std::vector<VertexId>& path) { return !impl_->has(path); });
+  impl_->marked_paths = std::move(paths);
+  impl_->show_marked_paths();
   update();
 }
 
@@ -330,11 +353,7 @@ void MeshView::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QC
 }
 
 void MeshView::set_lines(std::vector<ViewLine> lines) {
-  const std::size_t count = impl_->mesh ? impl_->mesh->vertex_count() : 0;
-  std::erase_if(lines, [&](const ViewLine& line) {
-    return line.vertices.size() < 2 || std::any_of(line.vertices.begin(), line.vertices.end(),
-                                                   [&](VertexId v) { return v >= count; });
-  });
+  std::erase_if(lines, [&](const ViewLine& line) { return !impl_->has(line.vertices); });
   impl_->lines = std::move(lines);
   impl_->show_lines();
   update();
@@ -365,6 +384,11 @@ void MeshView::set_edges_visible(bool visible) {
 
 void MeshView::set_scalar_bar_visible(bool visible) {
   impl_->scalar_bar_visible = visible;
+  update();
+}
+
+void MeshView::set_legend_visible(bool visible) {
+  impl_->legend_visible = visible;
   update();
 }
 
@@ -421,6 +445,33 @@ void MeshView::look_from(StandardView view) {
       break;
   }
   fit();
+}
+
+void MeshView::zoom_by(double factor) {
+  const QSizeF size = logical_size(*this);
+  impl_->camera.zoom(factor, QPointF(size.width() / 2.0, size.height() / 2.0), size,
+                     impl_->least_height(), impl_->most_height());
+  update();
+}
+
+void MeshView::look_like(const MeshView& other) {
+  const Impl::Look look = other.impl_->look();
+  if (look == impl_->look()) return;
+  const bool follows = look.camera != impl_->camera || look.section != impl_->section;
+  impl_->camera = look.camera;
+  set_section(look.section);
+  set_surface(look.surface);
+  set_lines_visible(look.lines_visible);
+  set_edges_visible(look.edges_visible);
+  set_dark(look.dark);
+  impl_->told = impl_->look();
+  if (follows && other.impl_->moving) moved();
+}
+
+void MeshView::tell_look() {
+  if (impl_->look() == impl_->told) return;
+  impl_->told = impl_->look();
+  emit look_changed();
 }
 
 void MeshView::zoom_to(const std::vector<VertexId>& vertices) {
@@ -500,6 +551,7 @@ void MeshView::resizeGL(int, int) {}
 
 void MeshView::paintGL() {
   if (!impl_->canvas.started()) return;
+  tell_look();
   if (!impl_->coarse_given) {
     if (auto coarse = if_ready(impl_->coarse)) {
       impl_->scene.set_coarse(std::move(coarse));

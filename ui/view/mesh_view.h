@@ -54,6 +54,9 @@ struct ViewField {
 /// reference translucent over the mesh.
 enum class ShownSurface { mesh, reference, both };
 
+/// Colour of the bands of MeshView::set_marked_paths().
+QColor marked_colour();
+
 /// A plane to look into the part: what lies beyond it, where normal · p > offset, is cut away.
 struct Section {
   Point normal = Point::UnitX();  ///< Unit vector.
@@ -135,6 +138,9 @@ class MeshView : public QOpenGLWidget {
   /// Paths drawn dashed over the surface in a colour of their own: previews and proposals. Those
   /// with vertices that the mesh does not have are left out.
   void set_ghost_paths(std::vector<std::vector<VertexId>> paths);
+  /// Paths under which a broad band is drawn, as what only one of two versions has. Those with
+  /// vertices that the mesh does not have are left out; gone with the mesh.
+  void set_marked_paths(std::vector<std::vector<VertexId>> paths);
   /// Points marked by small rings, as the picks of a path so far.
   void set_picked_points(std::vector<Point> points);
 
@@ -151,7 +157,8 @@ class MeshView : public QOpenGLWidget {
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);  ///< Mesh edges as a thin net.
   void set_scalar_bar_visible(bool visible);
-  void set_dark(bool dark);  ///< Ground and text colours.
+  void set_legend_visible(bool visible);  ///< That of the types of lines.
+  void set_dark(bool dark);               ///< Ground and text colours.
 
   void fit();  ///< The whole part in the view; keeps the direction.
   enum class StandardView { front, back, left, right, top, bottom, isometric };
@@ -159,6 +166,10 @@ class MeshView : public QOpenGLWidget {
   void look_against(const Point& towards_viewer);
   void look_from(StandardView view);  ///< z is up; fits the part.
   Point towards_viewer() const;
+  void zoom_by(double factor);  ///< Magnifies about the middle of the view.
+  /// Takes over how another view looks at its part: camera, section, surface, ground, what of lines
+  /// and edges is visible. Not the scalar bar: two views side by side need one.
+  void look_like(const MeshView& other);
   /// Moves the camera (keeps direction) so that these vertices fill most of the view.
   void zoom_to(const std::vector<VertexId>& vertices);
 
@@ -172,6 +183,8 @@ class MeshView : public QOpenGLWidget {
   std::optional<Pick> pick(const QPoint& position);
 
  signals:
+  /// What look_like() takes over has changed, by the user or by a call.
+  void look_changed();
   /// At most about 30 times a second, and never while a button is held.
   void hovered(const std::optional<arris::ui::Pick>& pick);
   /// A click without dragging (select and band); `toggle` with Ctrl held. nullopt: the ground.
@@ -222,6 +235,7 @@ class MeshView : public QOpenGLWidget {
   void paint_to(const QPoint& at);
   void measure_to(const Pick& pick);
   void show_cursor();
+  void tell_look();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

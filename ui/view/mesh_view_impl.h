@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <new>
@@ -51,6 +52,17 @@ QStringList measured_lines(const Mesh& mesh, const Pick& from, const Pick& to);
 /// What MeshView keeps: what is shown (mesh_view.cpp) and what the user is doing
 /// (mesh_view_input.cpp).
 struct MeshView::Impl {
+  /// What look_like() takes over.
+  struct Look {
+    ViewCamera camera;
+    std::optional<Section> section;
+    ShownSurface surface = ShownSurface::mesh;
+    bool lines_visible = true;
+    bool edges_visible = false;
+    bool dark = false;
+    bool operator==(const Look&) const = default;
+  };
+
   enum class Drag { none, orbit, pan, zoom, band, paint, line };
 
   MeshPtr mesh;
@@ -58,14 +70,17 @@ struct MeshView::Impl {
   std::vector<ViewLine> lines;        // as given
   std::vector<ViewLine> shown_lines;  // without the runs between hidden faces
   std::unordered_set<std::uint32_t> selected_lines;
-  std::vector<bool> hidden;  // faces; empty: none
+  std::vector<std::vector<VertexId>> marked_paths;  // as given
+  std::vector<bool> hidden;                         // faces; empty: none
   std::optional<Section> section;
   std::optional<ViewField> field;
   bool field_has_undefined = false;
   std::set<LineType> line_types;
   bool lines_visible = true;
   bool scalar_bar_visible = true;
+  bool legend_visible = true;
   bool dark = false;
+  Look told;  // by the last look_changed()
 
   ViewCamera camera;
   Scene scene;
@@ -113,6 +128,17 @@ struct MeshView::Impl {
   bool field_shown() const;
   QString hint_shown() const;
   void show_lines();
+  void show_marked_paths();
+  /// The runs of a path that are not between two hidden faces.
+  std::vector<std::vector<VertexId>> visible_runs(const std::vector<VertexId>& path) const;
+  /// Whether the mesh has all vertices of a path that can be drawn.
+  bool has(const std::vector<VertexId>& path) const {
+    return mesh && path.size() > 1 &&
+           std::ranges::all_of(path, [&](VertexId v) { return v < mesh->vertex_count(); });
+  }
+  Look look() const {
+    return {camera, section, scene.chosen(), lines_visible, scene.edges_visible(), dark};
+  }
 
   PickSpace space(const RayTree& with, QSizeF size) const {
     return {with, camera, size, hidden.empty() ? nullptr : &hidden, section};

@@ -32,6 +32,7 @@ const QColor unlabelled_colour(226, 227, 230);
 const QColor selected_colour(255, 190, 30);
 const QColor highlight_colour(255, 128, 0);
 const QColor ghost_colour(0, 214, 236);
+constexpr float marked_half_width = 5.5F;
 
 /// Normals of the vertices make a scan look smooth, those of the faces keep its sharp lines crisp:
 /// where the two differ much the face's is taken.
@@ -194,6 +195,8 @@ const std::vector<Stroke>& line_strokes() {
   };
   return strokes;
 }
+
+QColor marked_colour() { return QColor(255, 60, 172, 215); }
 
 /// One set of triangles over the points of a mesh.
 struct Scene::Shape {
@@ -454,6 +457,8 @@ struct Scene::Body {
 
 Scene::Scene()
     : highlight_(std::make_unique<Highlight>(line_renderer_)),
+      marked_(line_renderer_, {{marked_half_width, 0.0F, 0.0F, marked_colour()}},
+              {{0.0F, QColor()}}),
       label_outline_(line_renderer_, {{3.9F, 0.0F, 0.0F, QColor(255, 214, 0)}},
                      {{1.0F, QColor(40, 30, 0)}, {0.0F, QColor()}}),
       lines_(line_renderer_, line_strokes(), line_layers()),
@@ -501,6 +506,7 @@ void Scene::set_mesh(MeshPtr mesh) {
   selected_lines_.clear();
   label_outline_.clear();
   ghosts_.clear();
+  marked_.clear();
   highlight_->clear();
   body_->set_mesh(std::move(mesh));
   reference_->set_mesh(nullptr);
@@ -552,11 +558,22 @@ void Scene::set_section(const std::optional<Section>& section) {
   ++surface_version_;
 }
 
-void Scene::set_ghost_paths(const std::vector<std::vector<VertexId>>& paths) {
-  if (!body_->mesh) return;
+namespace {
+
+std::vector<Ribbons::Line> ribbons_of(const std::vector<std::vector<VertexId>>& paths) {
   std::vector<Ribbons::Line> ribbons;
   for (const auto& path : paths) ribbons.push_back({&path, 0});
-  ghosts_.set_lines(*body_->mesh, origin_, ribbons);
+  return ribbons;
+}
+
+}  // namespace
+
+void Scene::set_ghost_paths(const std::vector<std::vector<VertexId>>& paths) {
+  if (body_->mesh) ghosts_.set_lines(*body_->mesh, origin_, ribbons_of(paths));
+}
+
+void Scene::set_marked_paths(const std::vector<std::vector<VertexId>>& paths) {
+  if (body_->mesh) marked_.set_lines(*body_->mesh, origin_, ribbons_of(paths));
 }
 
 void Scene::highlight_faces(const std::vector<FaceId>& faces) {
@@ -630,6 +647,7 @@ void Scene::set_selected_lines(const std::vector<ViewLine>& lines,
 
 void Scene::set_lines_visible(bool visible) {
   lines_.set_visible(visible);
+  marked_.set_visible(visible);
   selected_lines_.set_visible(visible);
 }
 
@@ -690,7 +708,7 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
   frame.viewport = {pixels.width(), pixels.height()};
   frame.towards_viewer = camera.towards_viewer();
   frame.section = local_section();
-  for (Ribbons* ribbons : {&lines_, &selected_lines_, &label_outline_, &ghosts_})
+  for (Ribbons* ribbons : {&marked_, &lines_, &selected_lines_, &label_outline_, &ghosts_})
     ribbons->update(frame);
   const auto lift = [&](vtkActor* actor, double units) {
     actor->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf(

@@ -52,6 +52,7 @@ class Scene {
   void set_shown(ShownSurface shown);
   /// What is drawn: the mesh where there is no reference.
   ShownSurface shown() const;
+  ShownSurface chosen() const { return shown_; }    ///< Reference or none.
   void set_hidden_faces(std::vector<bool> hidden);  ///< Of the mesh; empty: none.
   void set_section(const std::optional<Section>& section);
   void set_field(const std::optional<ViewField>& field);
@@ -61,10 +62,12 @@ class Scene {
   void set_selected_lines(const std::vector<ViewLine>& lines,
                           const std::unordered_set<std::uint32_t>& ids);
   void set_ghost_paths(const std::vector<std::vector<VertexId>>& paths);
+  void set_marked_paths(const std::vector<std::vector<VertexId>>& paths);
   void highlight_faces(const std::vector<FaceId>& faces);  ///< These too.
   void clear_highlight();
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);
+  bool edges_visible() const { return edges_visible_; }
   /// Two colours from the bottom to the top; one where they are alike; alpha 0: transparent.
   void set_ground(const QColor& bottom, const QColor& top);
 
@@ -114,6 +117,7 @@ class Scene {
   vtkNew<vtkTexture> texture_;
   vtkNew<vtkImageData> texture_image_;
   std::unique_ptr<Highlight> highlight_;
+  Ribbons marked_;
   Ribbons label_outline_;
   Ribbons lines_;
   Ribbons selected_lines_;

@@ -3,38 +3,11 @@
 #include <cmath>
 
 #include "core/base/number_text.h"
+#include "ui/window/shown_elements.h"
 
 namespace arris::ui {
 
 namespace {
-
-/// Boundaries that are no sharp lines have no id of their own: they are numbered from here on.
-constexpr std::uint32_t first_boundary = 0x80000000u;
-
-LineType type_of(const Boundary& boundary) {
-  switch (boundary.type) {
-    case BoundaryType::c0:
-      return boundary.mean_angle >= 0.0 ? LineType::c0_convex : LineType::c0_concave;
-    case BoundaryType::gn:
-      return LineType::gn;
-    case BoundaryType::undefined:
-      return LineType::undefined;
-    case BoundaryType::border:
-      break;
-  }
-  return LineType::border;
-}
-
-std::vector<ViewLine> view_lines(const Snapshot& snapshot) {
-  std::vector<ViewLine> lines;
-  lines.reserve(snapshot.boundaries.size());
-  for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
-    const Boundary& boundary = *snapshot.boundaries[k];
-    lines.push_back({boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k,
-                     type_of(boundary), boundary.vertices});
-  }
-  return lines;
-}
 
 double shown(double value, int digits = 4) { return rounded(value, digits); }
 
@@ -140,6 +113,7 @@ void ElementsPresenter::set_partitions_shown(bool shown_now) {
   if (partitions_shown_ == shown_now) return;
   partitions_shown_ = shown_now;
   refresh();
+  emit partitions_shown_changed();
 }
 
 void ElementsPresenter::refresh() {
@@ -153,27 +127,14 @@ void ElementsPresenter::refresh() {
             [&](std::uint32_t k) { return k >= 1 && k <= snapshot.boundaries.size(); });
 
   const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
-  // Ids grow with the session; colours and labels of the view are numbered by place, from 1.
-  std::vector<std::uint32_t> place(document.next_id, 0);
-  for (std::uint32_t k = 0; k < partitions.size(); ++k) place[partitions[k]->id] = k + 1;
-  std::vector<std::array<std::uint32_t, 2>> neighbours;
-  for (const BoundaryPtr& boundary : snapshot.boundaries)
-    if (boundary->left != 0 && boundary->right != 0 && boundary->left != boundary->right)
-      neighbours.push_back({place[boundary->left] - 1, place[boundary->right] - 1});
-  const std::vector<QColor> colours = partition_colours(partitions.size(), neighbours);
-
-  if (partitions_shown_ && !document.partitions.labels.empty()) {
-    std::vector<std::uint32_t> labels(document.mesh->face_count());
-    for (FaceId f = 0; f < labels.size(); ++f) labels[f] = place[document.partitions.labels[f]];
-    std::vector<QColor> by_label{QColor(205, 205, 205)};
-    by_label.insert(by_label.end(), colours.begin(), colours.end());
-    view_->set_face_labels(std::move(labels), std::move(by_label));
-  } else {
+  const std::vector<QColor> colours = colours_of_partitions(document);
+  if (partitions_shown_)
+    show_partitions_in(*view_, document, colours);
+  else
     view_->set_face_labels({}, {});
-  }
   drop_gone(hidden_, [&](std::uint32_t id) { return document.partitions.find(id); });
   drop_gone(isolated_, [&](std::uint32_t id) { return document.partitions.find(id); });
-  view_->set_lines(view_lines(snapshot));
+  view_->set_lines(view_lines(document));
   show_visibility();
 
   // Tables of a part with thousands of rows are filled only for the state that stays.

@@ -52,6 +52,7 @@ class ElementsPresenter : public QObject {
  signals:
   /// By the user, in the view or a table.
   void selection_changed();
+  void partitions_shown_changed();
   /// Partitions were hidden, isolated or shown again.
   void visibility_changed();
 

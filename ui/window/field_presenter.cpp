@@ -23,6 +23,36 @@ const std::vector<QColor>& shape_colours() {
   return colours;
 }
 
+/// The values of a field, and the place of its largest where it points that out.
+struct FieldOfPart {
+  std::shared_ptr<const std::vector<double>> values;
+  std::optional<ViewMark> mark;
+};
+
+/// `zones`: needed by Deviation alone.
+FieldOfPart field_of(Field field, const Mesh& mesh, const Curvatures& curvatures,
+                     const ErrorZones* zones) {
+  FieldOfPart part;
+  std::vector<double> values;
+  if (field == Field::deviation) {
+    Occupancy occupancy = occupancy_of(mesh, *zones);
+    values = std::move(occupancy.shares);
+    for (double& value : values) value *= 100.0;
+    const FaceOccupancy& worst = occupancy.worst;
+    if (worst.worst != no_id)
+      part.mark = ViewMark{mesh.point(worst.worst),
+                           FieldPresenter::tr("worst: %1 mm, %2 % of its zone")
+                               .arg(QString::fromStdString(number_text(worst.distance, 3)),
+                                    QString::fromStdString(fixed_text(100.0 * worst.share, 0)))};
+  } else if (field == Field::face_quality) {
+    values = face_qualities(mesh);
+  } else {
+    values = field_values(curvatures, field);
+  }
+  part.values = std::make_shared<const std::vector<double>>(std::move(values));
+  return part;
+}
+
 /// Where the range of a field is known beforehand, from 0.
 double most_of(Field field) { return field == Field::deviation ? 100.0 : 1.0; }
 
@@ -95,24 +125,31 @@ void FieldPresenter::load() {
     distribution_ = {};
     return;
   }
-  std::vector<double> values;
-  if (field_ == Field::deviation) {
-    Occupancy occupancy = occupancy_of(*mesh_, *zones_);
-    values = std::move(occupancy.shares);
-    for (double& value : values) value *= 100.0;
-    const FaceOccupancy& worst = occupancy.worst;
-    if (worst.worst != no_id)
-      mark_ = ViewMark{mesh_->point(worst.worst),
-                       tr("worst: %1 mm, %2 % of its zone")
-                           .arg(QString::fromStdString(number_text(worst.distance, 3)),
-                                QString::fromStdString(fixed_text(100.0 * worst.share, 0)))};
-  } else if (field_ == Field::face_quality) {
-    values = face_qualities(*mesh_);
-  } else {
-    values = field_values(*curvatures_, field_);
-  }
-  values_ = std::make_shared<const std::vector<double>>(std::move(values));
+  const FieldOfPart part = field_of(field_, *mesh_, *curvatures_, zones_.get());
+  values_ = part.values;
+  mark_ = part.mark;
   distribution_ = Distribution(*values_, field_weights(*mesh_, field_));
+}
+
+ViewField FieldPresenter::view_field(std::shared_ptr<const std::vector<double>> values) const {
+  const FieldInfo& info = info_of(field_);
+  ViewField shown;
+  shown.title = title_of(field_);
+  shown.values = std::move(values);
+  shown.element = info.element;
+  shown.scale = scale();
+  shown.read_as_radius = field_ == Field::kabs;
+  if (info.is_class) {
+    for (const std::string_view name : shape_names()) shown.class_names << text(name);
+    shown.class_colours = shape_colours();
+  }
+  return shown;
+}
+
+std::optional<ViewField> FieldPresenter::of(const Document& document) const {
+  if (document.empty() || (field_ == Field::deviation && !document.zones)) return std::nullopt;
+  return view_field(
+      field_of(field_, *document.mesh, *document.shown_curvatures(), document.zones.get()).values);
 }
 
 void FieldPresenter::refresh() {
@@ -137,17 +174,8 @@ void FieldPresenter::refresh() {
     emit changed();
     return;
   }
-  ViewField shown;
-  shown.title = title_of(field_);
-  shown.values = values_;
-  shown.element = info.element;
+  ViewField shown = view_field(values_);
   shown.mark = mark_;
-  shown.scale = s.scale;
-  shown.read_as_radius = field_ == Field::kabs;
-  if (info.is_class) {
-    for (const std::string_view name : shape_names()) shown.class_names << text(name);
-    shown.class_colours = shape_colours();
-  }
   view_->set_field(shown);
 
   Histogram histogram;

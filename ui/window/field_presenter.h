@@ -29,6 +29,9 @@ class FieldPresenter : public QObject {
   void set_field(Field field);
   Field field() const { return field_; }
   const Distribution& distribution() const { return distribution_; }
+  /// The field shown, in the same colours and range, of another document; absent where it has not
+  /// got it.
+  std::optional<ViewField> of(const Document& document) const;
   const ColourScale& scale() const { return states_[static_cast<std::size_t>(field_)].scale; }
 
  signals:
@@ -38,7 +41,8 @@ class FieldPresenter : public QObject {
  private:
   ColourMapState& state() { return states_[static_cast<std::size_t>(field_)]; }
   void take(const ColourMapState& state);
-  void load();     // values and distribution of the field
+  void load();  // values and distribution of the field
+  ViewField view_field(std::shared_ptr<const std::vector<double>> values) const;
   void refresh();  // range, view, panel, histogram
 
   MeshView* view_;

@@ -1,6 +1,6 @@
 #include "ui/window/main_window.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include <QAction>
 #include <QActionGroup>
@@ -29,15 +29,14 @@
 #include "core/base/number_text.h"
 #include "core/document/export.h"
 #include "core/document/journal.h"
-#include "core/mesh/face_quality.h"
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
-#include "core/simplification/occupancy.h"
 #include "ui/panels/controls.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
 #include "ui/window/actions.h"
+#include "ui/window/hover_text.h"
 #include "ui/window/picture_dialog.h"
 #include "ui/window/theme.h"
 
@@ -47,11 +46,6 @@ namespace {
 
 constexpr int most_recent = 10;
 constexpr int progress_delay = 300;  // ms: shorter work shows no progress
-
-QString number(double value, int digits = 4) {
-  return std::isnan(value) ? QString("–")
-                           : QString::fromStdString(arris::number_text(value, digits));
-}
 
 QString counted(std::size_t count, const QString& what) {
   return count_text(static_cast<qint64>(count)) + " " + what;
@@ -70,7 +64,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   start_page_ = new StartPage(stack_);
   view_ = new MeshView(stack_);
   stack_->addWidget(start_page_);
-  stack_->addWidget(view_);
+  side_by_side_ = new SideBySide(view_, marked_colour(), stack_);
+  stack_->addWidget(side_by_side_);
   setCentralWidget(stack_);
 
   make_docks();
@@ -80,7 +75,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     const Document& document = session_->shown().document;
     if (other_mesh) {
       view_->set_mesh(document.mesh, false);
-      stack_->setCurrentWidget(document.empty() ? static_cast<QWidget*>(start_page_) : view_);
+      stack_->setCurrentWidget(document.empty() ? static_cast<QWidget*>(start_page_)
+                                                : side_by_side_);
     }
     fields_->show(document);
   });
@@ -88,6 +84,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
                                     {lines_table_, partitions_table_, boundaries_table_}, this);
   section_bar_ = new SectionBar(this);
   section_ = new SectionPresenter(session_, view_, section_bar_, this);
+  comparison_ = new ComparisonPresenter(session_, view_, side_by_side_, fields_, elements_, this);
   view_presenter_ = new ViewPresenter(session_, view_, elements_, this);
   treatment_bar_ = new TreatmentBar(this);
   treatments_ = new TreatmentsPresenter(session_, view_, elements_, treatment_bar_, this);
@@ -109,6 +106,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(tour_, &TourPresenter::field_wanted, this, &MainWindow::set_field);
   for (const TourStep& step : TourPresenter::steps()) start_page_->add_step(step.title, step.gist);
   connect(history_panel_, &HistoryPanel::travel, session_, &Session::travel);
+  connect(history_panel_, &HistoryPanel::name_wanted, comparison_, &ComparisonPresenter::ask_name);
+  connect(history_panel_, &HistoryPanel::compare_wanted, comparison_,
+          &ComparisonPresenter::compare_with);
+  connect(session_, &Session::names_changed, this, &MainWindow::refresh_history);
   connect(session_, &Session::changed, this, [this] {
     refresh_counts();
     if (!session_->is_previewing()) {
@@ -167,7 +168,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     if (name) findChild<QDockWidget*>(name)->raise();
   });
   connect(elements_, &ElementsPresenter::visibility_changed, this, &MainWindow::refresh_counts);
-  connect(view_, &MeshView::hovered, this, &MainWindow::show_hover);
+  connect(view_, &MeshView::hovered, this, [this](const std::optional<Pick>& pick) {
+    show_hover(session_->shown().document, pick);
+  });
+  connect(comparison_, &ComparisonPresenter::hovered, this, &MainWindow::show_hover);
   connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
   connect(fields_, &FieldPresenter::changed, this, [this] {
     for (QAction* a : field_actions_->actions())
@@ -313,8 +317,8 @@ void MainWindow::make_actions() {
                          tr("Copy the view to the clipboard"));
   connect(copy_picture_, &QAction::triggered, this, [this] {
     PictureOptions options = picture_options_;
-    options.size = view_->size() * view_->devicePixelRatioF();
-    QApplication::clipboard()->setImage(view_->picture(options));
+    options.size = stack_->size() * view_->devicePixelRatioF();
+    QApplication::clipboard()->setImage(picture(options));
   });
   export_ = action(file, tr("&Export results…"), QKeySequence("Ctrl+E"),
                    tr("Write lines, boundaries, labelled scan and operations into a folder"));
@@ -332,6 +336,8 @@ void MainWindow::make_actions() {
   QAction* clear =
       action(edit, tr("&Clear selection"), QKeySequence("Ctrl+Shift+A"), tr("Select nothing"));
   connect(clear, &QAction::triggered, elements_, &ElementsPresenter::clear_selection);
+  edit->addSeparator();
+  comparison_->add_actions(edit);
 
   QMenu* part = menuBar()->addMenu(tr("&Part"));
   run_lines_ = action(part, tr("Find sharp &lines"), QKeySequence("Ctrl+L"),
@@ -454,12 +460,12 @@ void MainWindow::make_actions() {
       &QAction::triggered, this, [this] {
         const bool on_start = stack_->currentWidget() == start_page_;
         if (!on_start || !session_->current().document.empty())
-          stack_->setCurrentWidget(on_start ? static_cast<QWidget*>(view_) : start_page_);
+          stack_->setCurrentWidget(on_start ? static_cast<QWidget*>(side_by_side_) : start_page_);
       });
   connect(action(help, tr("Take the &tour"), QKeySequence("Shift+F1"),
                  tr("Five steps on the open part, or on the sample mould, each done by you")),
           &QAction::triggered, this, [this] {
-            if (!session_->current().document.empty()) stack_->setCurrentWidget(view_);
+            if (!session_->current().document.empty()) stack_->setCurrentWidget(side_by_side_);
             tour_->take();
           });
   connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
@@ -587,7 +593,7 @@ void MainWindow::choose_file() {
 }
 
 bool MainWindow::save_picture(const QString& path, const PictureOptions& options, QString* error) {
-  const QImage image = view_->picture(options);
+  const QImage image = picture(options);
   QString message;
   if (image.isNull())
     message =
@@ -603,9 +609,13 @@ bool MainWindow::save_picture(const QString& path, const PictureOptions& options
   return message.isEmpty();
 }
 
+QImage MainWindow::picture(const PictureOptions& options) {
+  return comparison_->active() ? comparison_->picture(options) : view_->picture(options);
+}
+
 void MainWindow::choose_picture() {
   picture_options_.scalar_bar = true;
-  PictureDialog dialog(picture_options_, view_->size(), this);
+  PictureDialog dialog(picture_options_, stack_->size(), this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
   QSettings settings;
@@ -734,17 +744,29 @@ void MainWindow::refresh_actions() {
 void MainWindow::refresh_history() {
   std::vector<HistoryRow> rows;
   const History& history = session_->history();
-  bool undone = false;
-  for (const std::uint32_t sequence : history.line_of_travel()) {
+  const auto row_of = [&](std::uint32_t sequence) {
     const Operation& operation = history.entries()[sequence - 1].operation;
     HistoryRow row;
     row.sequence = sequence;
     row.text = QString::fromStdString(describe(operation));
     row.tooltip = QString::fromStdString(operation.to_json().dump(1));
+    return row;
+  };
+  bool undone = false;
+  for (const std::uint32_t sequence : history.line_of_travel()) {
+    HistoryRow row = row_of(sequence);
     row.current = sequence == history.head();
     row.undone = undone;
     undone = undone || row.current;
     rows.push_back(row);
+  }
+  for (const auto& [sequence, name] : history.names()) {
+    auto row = std::ranges::find(rows, sequence, &HistoryRow::sequence);
+    if (row == rows.end()) {
+      row = rows.insert(rows.end(), row_of(sequence));
+      row->elsewhere = true;
+    }
+    row->name = QString::fromStdString(name);
   }
   history_panel_->set_rows(rows);
 }
@@ -764,33 +786,8 @@ void MainWindow::refresh_counts() {
   counts_label_->setText(text);
 }
 
-void MainWindow::show_hover(const std::optional<Pick>& pick) {
-  const Document& document = session_->shown().document;
-  if (!pick || document.empty() || pick->vertex >= document.mesh->vertex_count()) {
-    hover_label_->setText({});
-    return;
-  }
-  const Curvatures& c = *document.shown_curvatures();
-  const VertexId v = pick->vertex;
-  QString text = tr("vertex %1   K %2   H %3   Kabs %4")
-                     .arg(v)
-                     .arg(number(c.k[v]), number(c.h[v]), number(c.kabs[v]));
-  if (c.kabs[v] > 0.0) text += tr(" (r %1 mm)").arg(number(cylinder_radius(c.kabs[v]), 3));
-  text += tr("   IKabs %1").arg(number(c.ikabs[v]));
-  if (pick->edge < document.mesh->edge_count())
-    text += tr("   |IHe| %1°").arg(number(std::abs(c.beta[pick->edge]) * 180.0 / M_PI, 3));
-  if (pick->face < document.mesh->face_count()) {
-    text += tr("   quality %1").arg(number(face_quality(*document.mesh, pick->face), 2));
-    if (document.zones) {
-      const FaceOccupancy use = occupancy_of_face(*document.mesh, *document.zones, pick->face);
-      text +=
-          tr("   deviation %1 mm, %2 %").arg(number(use.distance, 2), number(100.0 * use.share, 2));
-    }
-  }
-  if (pick->line != 0 && document.lines.find(pick->line)) text += tr("   line %1").arg(pick->line);
-  if (const std::uint32_t label = document.partitions.label(pick->face); label != 0)
-    text += tr("   partition %1").arg(label);
-  hover_label_->setText(text);
+void MainWindow::show_hover(const Document& document, const std::optional<Pick>& pick) {
+  hover_label_->setText(pick ? hover_text(document, *pick) : QString());
 }
 
 void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>& pick) {

@@ -2,6 +2,7 @@
 
 #include <QMainWindow>
 
+#include "ui/window/comparison_presenter.h"
 #include "ui/window/corrections_presenter.h"
 #include "ui/window/elements_presenter.h"
 #include "ui/window/explanation_presenter.h"
@@ -58,6 +59,7 @@ class MainWindow : public QMainWindow {
   WorklistPresenter& worklist() { return *worklist_; }
   ExplanationPresenter& explanations() { return *explanations_; }
   TourPresenter& tour() { return *tour_; }
+  ComparisonPresenter& comparison() { return *comparison_; }
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -83,7 +85,9 @@ class MainWindow : public QMainWindow {
   void refresh_actions();
   void refresh_history();
   void refresh_counts();
-  void show_hover(const std::optional<Pick>& pick);
+  void show_hover(const Document& document, const std::optional<Pick>& pick);
+  /// The view, or both views while versions are compared.
+  QImage picture(const PictureOptions& options);
   void context_menu(const QPoint& global, const std::optional<Pick>& pick);
   QDockWidget* add_dock(const QString& name, const QString& title, QWidget* content,
                         Qt::DockWidgetArea area);
@@ -91,6 +95,7 @@ class MainWindow : public QMainWindow {
   Session* session_;
   QStackedWidget* stack_;
   StartPage* start_page_;
+  SideBySide* side_by_side_;
   MeshView* view_;
   ColourMapPanel* colour_map_;
   StepsPanel* steps_panel_;
@@ -103,6 +108,7 @@ class MainWindow : public QMainWindow {
   ElementsPresenter* elements_;
   ThresholdPresenter* thresholds_;
   ViewPresenter* view_presenter_;
+  ComparisonPresenter* comparison_;
   SectionPresenter* section_;
   SectionBar* section_bar_;
   TreatmentsPresenter* treatments_;

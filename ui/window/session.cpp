@@ -191,7 +191,9 @@ QStringList Session::abandoned_journals() {
 void Session::discard_journal(const QString& journal) { QFile::remove(journal); }
 
 bool Session::has_unsaved_edits() const {
-  return history_.entries().size() > 1 && history_.head() > 1 && history_.head() != saved_head_;
+  const bool edited =
+      history_.entries().size() > 1 && history_.head() > 1 && history_.head() != saved_head_;
+  return edited || history_.names() != saved_names_;
 }
 
 void Session::close() {
@@ -230,6 +232,7 @@ void Session::open_scan(const QString& path, std::function<Result<void>()> make)
           history_ = std::move(history);
           start_journal({});
           saved_head_ = 0;
+          saved_names_.clear();
           seconds_ = {{"open", seconds}};
           show(std::move(*snapshot));
           applies_corrections_ = true;
@@ -315,6 +318,35 @@ void Session::travel(std::uint32_t sequence) {
       finish_work();
     });
   });
+}
+
+void Session::fetch(std::uint32_t sequence, std::function<void(Document)> take) {
+  if (busy_) return;
+  if (sequence == history_.head()) return take(history_.current());
+  busy_ = true;
+  stop_ = std::stop_source();
+  emit busy_changed(true);
+  start([this, sequence, take = std::move(take), context = context_of_work()] {
+    auto found = std::make_shared<Result<Document>>(history_.document_at(sequence, context));
+    QMetaObject::invokeMethod(this, [this, take, found] {
+      finish_work();
+      if (*found)
+        take(std::move(**found));
+      else if (!found->error().cancelled)
+        emit failed(QString::fromStdString(found->error().message));
+    });
+  });
+}
+
+bool Session::name_version(std::uint32_t sequence, const QString& name) {
+  if (busy_) return false;
+  const Result<void> named = history_.set_name(sequence, name.toStdString());
+  if (!named) {
+    emit failed(QString::fromStdString(named.error().message));
+    return false;
+  }
+  emit names_changed();
+  return true;
 }
 
 void Session::undo() {

@@ -63,7 +63,10 @@ class Session : public QObject {
   static void discard_journal(const QString& journal);
   /// True where there are edits that were not written to a session file or results folder.
   bool has_unsaved_edits() const;
-  void mark_saved() { saved_head_ = history_.head(); }
+  void mark_saved() {
+    saved_head_ = history_.head();
+    saved_names_ = history_.names();
+  }
   /// Removes the journal: the session was closed on purpose.
   void close();
   /// Runs operations one after the other, each a history entry; stops at the first that fails.
@@ -71,6 +74,12 @@ class Session : public QObject {
   void undo();
   void redo();
   void travel(std::uint32_t sequence);
+  /// Gives the document after a row to `take`, without going there; at once where its snapshot is
+  /// kept, else once it was made again.
+  void fetch(std::uint32_t sequence, std::function<void(Document)> take);
+  /// Names a version, or takes its name away (History::set_name()). Errors are told, and returned
+  /// as false.
+  bool name_version(std::uint32_t sequence, const QString& name);
   /// Asks the running work to stop; nothing of it is kept.
   void cancel();
 
@@ -90,6 +99,8 @@ class Session : public QObject {
   void progress(double fraction, const QString& what);
   /// There is no preview: the operation would fail, and why.
   void preview_refused(const QString& why);
+  /// A version was named, or lost its name.
+  void names_changed();
   /// An operation went through: its name.
   void done(const QString& operation);
   void failed(const QString& message);
@@ -112,6 +123,7 @@ class Session : public QObject {
   std::unique_ptr<QLockFile> journal_lock_;  // tells other windows that the journal is in use
   QString journal_path_;
   std::uint32_t saved_head_ = 0;
+  std::map<std::uint32_t, std::string> saved_names_;
   Snapshot current_;
   std::shared_ptr<const Snapshot> previewed_;
   std::vector<std::pair<std::string, double>> seconds_;

@@ -4,12 +4,6 @@ namespace arris {
 
 namespace {
 
-bool is_utf8(const std::string& text) {
-  const std::string kept =
-      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::ignore);
-  return nlohmann::json::parse(kept).get<std::string>() == text;
-}
-
 Result<nlohmann::json> resolve_open(const Document&, const nlohmann::json& given) {
   ParameterReader reader("open", given);
   const std::string file = reader.text("file", "");
