@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
     });
     main_window.resize(std::max(main_window.width(), 1000), std::max(main_window.height(), 700));
   }
+  if (!shoot && !parser.isSet(run)) main_window.tour().offer();
   main_window.show();
   if (!parser.positionalArguments().isEmpty())
     main_window.open(parser.positionalArguments().first());

@@ -1,7 +1,6 @@
 #include "ui/panels/start_page.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <QDir>
 #include <QFileInfo>
@@ -124,6 +123,7 @@ class StartPage::Private {
   QBoxLayout* buttons = nullptr;
   QWidget* page = nullptr;
   QVBoxLayout* recent = nullptr;
+  QVBoxLayout* steps = nullptr;
   MutedLabel* none = nullptr;
   std::vector<FileButton*> files;
 
@@ -140,38 +140,6 @@ class StartPage::Private {
     button->setMinimumHeight(48);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     return button;
-  }
-
-  QLayout* tour() const {
-    const std::pair<QString, QString> steps[] = {
-        {tr("Open a scan"),
-         tr("A triangle mesh as PLY, STL, OBJ or OFF. The sample mould will do.")},
-        {tr("Look at the curvature"),
-         tr("Choose a field and a colour map; the histogram shows how it is spread.")},
-        {tr("Tune the sharp lines"),
-         tr("Drag the threshold TV_IH; the lines follow while the mouse moves.")},
-        {tr("Find partitions"), tr("Set Kmin and Kmax; faces in between grow together.")},
-        {tr("Save pictures and lines"), tr("Pictures as on the screen, and the lines as a file.")},
-    };
-    auto* column = new QVBoxLayout;
-    column->setSpacing(10);
-    int number = 0;
-    for (const auto& [title, text] : steps) {
-      auto* row = new QHBoxLayout;
-      row->setSpacing(10);
-      row->addWidget(new Number(++number, page), 0, Qt::AlignTop);
-      auto* words = new QVBoxLayout;
-      words->setSpacing(1);
-      auto* name = new QLabel(title, page);
-      name->setFont(scaled(name->font(), 1.0, true));
-      auto* note = new MutedLabel(text, page);
-      note->setWordWrap(true);
-      words->addWidget(name);
-      words->addWidget(note);
-      row->addLayout(words, 1);
-      column->addLayout(row);
-    }
-    return column;
   }
 };
 
@@ -229,8 +197,18 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
   left->addStretch(1);
   auto* right = new QVBoxLayout;
   right->setSpacing(10);
-  right->addWidget(p_->heading(tr("In five steps")));
-  right->addLayout(p_->tour());
+  auto* tour = new QPushButton(tr("Take the tour on the sample mould"), p_->page);
+  tour->setToolTip(tr("Leads through the steps once, two minutes, each done by you."));
+  tour->setAutoDefault(false);
+  tour->setMinimumWidth(tour->sizeHint().width() + 16);
+  auto* head = new QHBoxLayout;
+  head->addWidget(p_->heading(tr("In five steps")));
+  head->addStretch(1);
+  head->addWidget(tour);
+  right->addLayout(head);
+  p_->steps = new QVBoxLayout;
+  p_->steps->setSpacing(10);
+  right->addLayout(p_->steps);
   right->addStretch(1);
   p_->columns = new QHBoxLayout;
   p_->columns->setSpacing(32);
@@ -253,6 +231,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
 
   connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
   connect(sample, &QPushButton::clicked, this, &StartPage::sample_wanted);
+  connect(tour, &QPushButton::clicked, this, &StartPage::tour_wanted);
 }
 
 StartPage::~StartPage() = default;
@@ -271,6 +250,22 @@ void StartPage::set_recent(const QStringList& files) {
     p_->files.push_back(button);
   }
   p_->none->setVisible(files.isEmpty());
+}
+
+void StartPage::add_step(const QString& title, const QString& gist) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(10);
+  row->addWidget(new Number(p_->steps->count() + 1, p_->page), 0, Qt::AlignTop);
+  auto* words = new QVBoxLayout;
+  words->setSpacing(1);
+  auto* name = new QLabel(title, p_->page);
+  name->setFont(scaled(name->font(), 1.0, true));
+  auto* note = new MutedLabel(gist, p_->page);
+  note->setWordWrap(true);
+  words->addWidget(name);
+  words->addWidget(note);
+  row->addLayout(words, 1);
+  p_->steps->addLayout(row);
 }
 
 void StartPage::resizeEvent(QResizeEvent* event) {

@@ -96,10 +96,15 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   make_guidance();
   make_status_bar();
   make_actions();
+  tour_ = new TourPresenter(session_, fields_, histogram_, view_, this);
 
   connect(start_page_, &StartPage::open_wanted, this, &MainWindow::choose_file);
   connect(start_page_, &StartPage::sample_wanted, this, &MainWindow::open_sample);
   connect(start_page_, &StartPage::recent_wanted, this, &MainWindow::open);
+  connect(start_page_, &StartPage::tour_wanted, tour_, &TourPresenter::take_on_sample);
+  connect(tour_, &TourPresenter::sample_wanted, this, &MainWindow::open_sample);
+  connect(tour_, &TourPresenter::field_wanted, this, &MainWindow::set_field);
+  for (const TourStep& step : TourPresenter::steps()) start_page_->add_step(step.title, step.gist);
   connect(history_panel_, &HistoryPanel::travel, session_, &Session::travel);
   connect(history_panel_, &HistoryPanel::name_wanted, comparison_, &ComparisonPresenter::ask_name);
   connect(history_panel_, &HistoryPanel::compare_wanted, comparison_,
@@ -306,6 +311,7 @@ void MainWindow::make_actions() {
   file->addSeparator();
   save_picture_ = action(file, tr("Save &picture…"), QKeySequence("Ctrl+P"),
                          tr("Save the view at a size in pixels, with its scalar bar"));
+  save_picture_->setObjectName("save_picture");
   connect(save_picture_, &QAction::triggered, this, &MainWindow::choose_picture);
   copy_picture_ = action(file, tr("&Copy picture"), QKeySequence("Ctrl+Shift+C"),
                          tr("Copy the view to the clipboard"));
@@ -456,6 +462,12 @@ void MainWindow::make_actions() {
         if (!on_start || !session_->current().document.empty())
           stack_->setCurrentWidget(on_start ? static_cast<QWidget*>(side_by_side_) : start_page_);
       });
+  connect(action(help, tr("Take the &tour"), QKeySequence("Shift+F1"),
+                 tr("Five steps on the open part, or on the sample mould, each done by you")),
+          &QAction::triggered, this, [this] {
+            if (!session_->current().document.empty()) stack_->setCurrentWidget(side_by_side_);
+            tour_->take();
+          });
   connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
           &MainWindow::show_about);
 

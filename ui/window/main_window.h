@@ -12,6 +12,7 @@
 #include "ui/window/stability_presenter.h"
 #include "ui/window/steps_presenter.h"
 #include "ui/window/threshold_presenter.h"
+#include "ui/window/tour_presenter.h"
 #include "ui/window/treatments_presenter.h"
 #include "ui/window/view_presenter.h"
 #include "ui/window/worklist_presenter.h"
@@ -57,6 +58,7 @@ class MainWindow : public QMainWindow {
   ElementsPresenter& elements() { return *elements_; }
   WorklistPresenter& worklist() { return *worklist_; }
   ExplanationPresenter& explanations() { return *explanations_; }
+  TourPresenter& tour() { return *tour_; }
   ComparisonPresenter& comparison() { return *comparison_; }
 
  protected:
@@ -116,6 +118,7 @@ class MainWindow : public QMainWindow {
   ExplanationPresenter* explanations_;
   CorrectionsPresenter* corrections_;
   StabilityPresenter* stability_;
+  TourPresenter* tour_;
 
   QMenu* recent_menu_;
   QMenu* panels_menu_;
