@@ -203,6 +203,38 @@ TEST_F(MainWindowTest, UndoRedoAndTravel) {
   EXPECT_TRUE(named);
 }
 
+/// Counts what keeps a machine busy: layouts and drawing.
+class Work : public QObject {
+ public:
+  int count = 0;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    count += event->type() == QEvent::LayoutRequest || event->type() == QEvent::UpdateRequest ||
+             event->type() == QEvent::Paint;
+    return QObject::eventFilter(watched, event);
+  }
+};
+
+TEST_F(MainWindowTest, DoesNothingWhileNothingHappens) {
+  const auto work_at_rest = [] {
+    QTest::qWait(1500);  // what is under way comes to its end
+    Work work;
+    qApp->installEventFilter(&work);
+    QTest::qWait(1000);
+    return work.count;
+  };
+  EXPECT_EQ(work_at_rest(), 0) << "the start page";
+  open_sample();
+  run_both();
+  EXPECT_EQ(work_at_rest(), 0) << "a part";
+  run({"find_sharp_lines", {{"angle", 40.0}}});
+  QTest::keySequence(window.get(), QKeySequence("Ctrl+K"));
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return idle() && window->comparison().comparison().has_value(); }, patience));
+  EXPECT_EQ(work_at_rest(), 0) << "two versions";
+}
+
 TEST_F(MainWindowTest, ACrashLosesNothing) {
   open_sample();
   run_both();

@@ -31,10 +31,6 @@ class Versions : public MainWindowTest {
         patience));
     QTest::qWait(80);
   }
-  void run(const Operation& operation) {
-    window->session().run({operation});
-    ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
-  }
   void find_lines(double angle) { run({"find_sharp_lines", {{"angle", angle}}}); }
 
   /// Answers the next dialog for a name; tells what it was asked with.

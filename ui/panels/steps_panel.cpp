@@ -563,8 +563,12 @@ void CardFrame::arrange_form() {
     if (!cut) break;
     beside[worst] = false;
   }
-  form_->setColumnMinimumWidth(0, labels);
-  for (std::size_t i = 0; i < fields_.size(); ++i) labels_[i]->setWordWrap(label_width(i) > room);
+  // Each call asks for a new layout, even one that changes nothing, and a layout leads here again.
+  if (form_->columnMinimumWidth(0) != labels) form_->setColumnMinimumWidth(0, labels);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const bool wraps = label_width(i) > room;
+    if (labels_[i]->wordWrap() != wraps) labels_[i]->setWordWrap(wraps);
+  }
   if (beside == beside_) return;
   beside_ = beside;
   int row = 0;

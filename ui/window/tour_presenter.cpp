@@ -126,13 +126,7 @@ TourPresenter::TourPresenter(Session* session, FieldPresenter* fields, Histogram
       begin(step_ + 1);
     }
   });
-  connect(card_, &TourCard::end_wanted, this, [this] {
-    if (state_ == State::offering) {
-      answer_offer();
-      window_->statusBar()->showMessage(tr("Help ▸ Take the tour starts it at any time."), 5000);
-    }
-    end();
-  });
+  connect(card_, &TourCard::end_wanted, this, &TourPresenter::end);
 
   connect(histogram, &HistogramPanel::threshold_dragged, this, [this] { dragged_ = true; });
   connect(histogram, &HistogramPanel::threshold_cancelled, this, [this] { dragged_ = false; });
