@@ -703,8 +703,17 @@ class RandomEdits {
   Random random_;
 };
 
+void expect_replays(const History& history, const std::string& file) {
+  const testing::TempFolder folder;
+  const auto replayed = replay(folder.write("operations.jsonl", journal_text(history)), {file});
+  ASSERT_TRUE(replayed.has_value()) << replayed.error().message;
+  ASSERT_EQ(hash_of(replayed->history.current()), hash_of(history.current()));
+  ASSERT_TRUE(replayed->warnings.empty());
+}
+
 /// `count` random edits with undo and redo in between. After each: the invariants hold, a second
-/// document fed the same operation through JSON is equal; at the end a full replay is.
+/// document fed the same operation through JSON is equal; at one random point and at the end a full
+/// replay is.
 void run_random_edits(const std::string& file, int count, std::uint64_t seed) {
   RandomEdits edits(seed);
   History history;
@@ -713,7 +722,13 @@ void run_random_edits(const std::string& file, int count, std::uint64_t seed) {
   ASSERT_TRUE(history.run({"find_sharp_lines", {{"angle", 30.0}}}).has_value());
   ASSERT_TRUE(history.run({"find_partitions", json::object()}).has_value());
   int performed = 0, refused = 0;
+  const auto replayed_at =
+      static_cast<int>(Random(seed).bits() % static_cast<std::uint64_t>(count));
   for (int k = 0; k < count; ++k) {
+    if (k == replayed_at) {
+      expect_replays(history, file);
+      if (::testing::Test::HasFatalFailure()) return;
+    }
     const Operation operation = edits.next(history.current());
     if (operation.name == "undo" || operation.name == "redo") {
       if (operation.name == "undo" && history.head() > 3) {
@@ -748,11 +763,7 @@ void run_random_edits(const std::string& file, int count, std::uint64_t seed) {
       return;
     }
   }
-  const testing::TempFolder folder;
-  const auto replayed = replay(folder.write("operations.jsonl", journal_text(history)), {file});
-  ASSERT_TRUE(replayed.has_value()) << replayed.error().message;
-  ASSERT_EQ(hash_of(replayed->history.current()), hash_of(history.current()));
-  ASSERT_TRUE(replayed->warnings.empty());
+  expect_replays(history, file);
   EXPECT_GT(performed, refused);
 }
 
@@ -762,7 +773,7 @@ TEST(RandomTreatments, KeepTheInvariantsOnTheSampleMould) {
   run_random_edits(file, 400, 1);
 }
 
-/// Sessions as long as a user's, one after the other, each replayed at its end: 20 of 500 edits.
+/// Sessions as long as a user's, one after the other: 20 of 500 edits.
 class RandomTreatmentsOnARealMesh : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomTreatmentsOnARealMesh, KeepTheInvariants) {

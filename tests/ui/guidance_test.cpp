@@ -106,6 +106,13 @@ TEST_F(GuidanceTest, WhatIsDismissedStaysOffTheList) {
   run({{"smooth_curvature", {{"passes", 1}}}});
   ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
   for (const WorkItem& item : window->worklist().items()) EXPECT_NE(item.sentence, sentence);
+  window->worklist().bring_back();
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] {
+        return window->worklist().is_current() &&
+               std::ranges::count(window->worklist().items(), sentence, &WorkItem::sentence) == 1;
+      },
+      patience));
 }
 
 TEST_F(GuidanceTest, NothingIsWorkedOutWhileNobodyLooks) {

@@ -278,6 +278,23 @@ TEST_F(MainWindowTest, PicturesHaveTheAskedSizeAndAreOpaque) {
   EXPECT_FALSE(error.isEmpty());
 }
 
+TEST_F(MainWindowTest, WhatIsDisabledSaysWhy) {
+  const auto expect_reasons = [this](const char* when) {
+    for (const QAction* action : window->findChildren<QAction*>()) {
+      const bool counts = !action->isSeparator() && !action->menu() && !action->text().isEmpty() &&
+                          !action->statusTip().isEmpty();
+      if (!counts || action->isEnabled()) continue;
+      EXPECT_GT(action->toolTip().size(), action->statusTip().size() + 10)
+          << when << ": " << action->text().toStdString();
+    }
+  };
+  expect_reasons("on the start page");
+  open_sample();
+  expect_reasons("with a part");
+  run_both();
+  expect_reasons("with lines and partitions");
+}
+
 TEST_F(MainWindowTest, EveryActionHasATooltipAndShortcutsAreUnique) {
   open_sample();
   QMap<QString, QString> seen;

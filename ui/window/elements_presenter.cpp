@@ -37,11 +37,12 @@ QString ElementsPresenter::origin_text(const Line& line) {
 ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
   auto* table = new ElementTable(
       tr("lines"),
-      {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Edges"), tr("Origin")},
+      {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Origin"), tr("Edges")},
       {tr("Id of the line; it keeps it while thresholds move"),
        tr("Convex or concave; closed lines have no ends"), tr("Length along the line"),
-       tr("Mean exterior angle (IHe), positive where convex"), tr("Number of sharp edges"),
-       tr("Found, or extended, merged or drawn by hand; locked lines are not changed by finding")},
+       tr("Mean exterior angle (IHe), positive where convex"),
+       tr("Found, or extended, merged or drawn by hand; locked lines are not changed by finding"),
+       tr("Number of sharp edges")},
       parent);
   table->set_empty_text(
       tr("No sharp lines yet. Run the step “Sharp lines”, or drag TV_IH on the "
@@ -145,7 +146,7 @@ void ElementsPresenter::refresh() {
                            (line->closed ? tr(", closed") : QString());
       rows.push_back({line->id,
                       {line->id, type, shown(line->length), shown(line->mean_angle, 3),
-                       static_cast<int>(line->vertices.size() - 1), origin_text(*line)},
+                       origin_text(*line), static_cast<int>(line->vertices.size() - 1)},
                       {}});
     }
     tables_.lines->set_rows(std::move(rows));

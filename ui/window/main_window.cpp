@@ -230,7 +230,7 @@ void MainWindow::make_docks() {
   setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
   QDockWidget* histogram =
       add_dock("histogram", tr("Histogram and thresholds"), histogram_, Qt::BottomDockWidgetArea);
-  resizeDocks({findChild<QDockWidget*>("steps"), lines}, {290, 350}, Qt::Horizontal);
+  resizeDocks({findChild<QDockWidget*>("steps"), lines}, {290, 370}, Qt::Horizontal);
   resizeDocks({histogram}, {190}, Qt::Vertical);
 }
 
@@ -355,9 +355,9 @@ void MainWindow::make_actions() {
   connect(flip_, &QAction::triggered, this, [this] {
     session_->run({Operation{"flip_orientation", nlohmann::json::object()}});
   });
-  QAction* drop = action(part, tr("&Drop small components"), {},
-                         tr("Delete the components with fewer than a hundredth of the faces"));
-  connect(drop, &QAction::triggered, this, [this] {
+  drop_ = action(part, tr("&Drop small components"), {},
+                 tr("Delete the components with fewer than a hundredth of the faces"));
+  connect(drop_, &QAction::triggered, this, [this] {
     const std::size_t faces = session_->current().document.mesh->face_count();
     session_->run(
         {Operation{"delete_faces", {{"components_under", std::max<std::size_t>(faces / 100, 2)}}}});
@@ -471,8 +471,8 @@ void MainWindow::make_actions() {
   connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
           &MainWindow::show_about);
 
-  for (QAction* a : {save_session_, save_picture_, copy_picture_, export_, flip_, drop, report_,
-                     show_field_, show_partitions_, fit, zoom})
+  for (QAction* a : {save_session_, save_picture_, copy_picture_, export_, report_, show_field_,
+                     show_partitions_, fit, zoom})
     part_actions_.push_back(a);
   for (QMenu* menu : findChildren<QMenu*>()) menu->setToolTipsVisible(true);
 
@@ -715,24 +715,27 @@ void MainWindow::refresh_recent() {
 void MainWindow::refresh_actions() {
   const bool busy = session_->busy();
   const bool part = !session_->current().document.empty();
-  for (QAction* a : part_actions_) a->setEnabled(part);
-  for (QAction* a : {run_lines_, run_partitions_}) a->setEnabled(part && !busy);
-  flip_->setEnabled(part && !busy);
+  const QString no_part = tr("Open a part first.");
+  const QString wait = part ? tr("Wait until the work that runs is done.") : no_part;
+  for (QAction* a : part_actions_) set_available(a, part, no_part);
+  for (QAction* a : {run_lines_, run_partitions_, flip_, drop_})
+    set_available(a, part && !busy, wait);
   for (QAction* a : field_actions_->actions())
     set_available(a, fields_->is_available(static_cast<Field>(a->data().toInt())),
                   FieldPresenter::why_not_available());
-  run_all_->setEnabled(part && !busy && steps_->anything_out_of_date());
-  undo_->setEnabled(false);
-  redo_->setEnabled(false);
+  set_available(run_all_, part && !busy && steps_->anything_out_of_date(),
+                part && !busy ? tr("Everything is up to date.") : wait);
+  set_available(undo_, false, wait);
+  set_available(redo_, false, wait);
   if (busy) return;  // the history belongs to the work that runs
   const History& history = session_->history();
   const auto name = [&](std::uint32_t sequence) {
     return QString::fromStdString(describe(history.entries()[sequence - 1].operation));
   };
   // The first row is the opening of the part: there is nothing before it to go back to.
-  undo_->setEnabled(history.head() > 1);
+  set_available(undo_, history.head() > 1, part ? tr("There is nothing to undo.") : no_part);
   undo_->setText(history.head() > 1 ? tr("Undo: %1").arg(name(history.head())) : tr("Undo"));
-  redo_->setEnabled(history.can_redo());
+  set_available(redo_, history.can_redo(), part ? tr("There is nothing to redo.") : no_part);
   redo_->setText(tr("Redo"));
   const std::vector<std::uint32_t> rows = history.line_of_travel();
   for (std::size_t k = 0; k + 1 < rows.size(); ++k)

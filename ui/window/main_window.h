@@ -132,6 +132,7 @@ class MainWindow : public QMainWindow {
   QAction* run_partitions_;
   QAction* run_all_;
   QAction* flip_;
+  QAction* drop_;
   QAction* report_;
   QAction* show_field_;
   QAction* show_partitions_;

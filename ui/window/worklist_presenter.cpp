@@ -101,6 +101,9 @@ void WorklistPresenter::add_actions(QMenu* menu) {
   accept_action_ = action(menu, tr("&Accept"), QKeySequence("A"),
                           tr("Draw the line that the worklist proposes, shown dashed"));
   connect(accept_action_, &QAction::triggered, this, &WorklistPresenter::accept);
+  bring_back_ = action(menu, tr("&Bring back what was dismissed"), {},
+                       tr("Put the things taken off the worklist on it again"));
+  connect(bring_back_, &QAction::triggered, this, &WorklistPresenter::bring_back);
   refresh_buttons();
 }
 
@@ -284,6 +287,12 @@ void WorklistPresenter::dismiss() {
   if (!items_.empty()) show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
 }
 
+void WorklistPresenter::bring_back() {
+  dismissed_.clear();
+  outdate(false);
+  emit wanted();
+}
+
 bool WorklistPresenter::partitions_out_of_date() const {
   const std::optional<Step>& step = session_->current().document.find_partitions;
   return step && step->out_of_date;
@@ -298,7 +307,10 @@ void WorklistPresenter::clear_marks() {
 void WorklistPresenter::refresh_buttons() {
   const bool chosen = current_ && panel_->current_row() >= 0;
   panel_->set_enabled_buttons(current_ && !items_.empty(), can_accept(), chosen);
-  if (accept_action_) accept_action_->setEnabled(can_accept());
+  if (!accept_action_) return;
+  set_available(accept_action_, can_accept(),
+                tr("Go to something in the worklist (F7) that has a way on, shown dashed."));
+  set_available(bring_back_, !dismissed_.empty(), tr("Nothing was dismissed."));
 }
 
 }  // namespace arris::ui

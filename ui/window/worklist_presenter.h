@@ -38,6 +38,8 @@ class WorklistPresenter : public QObject {
   void previous() { step(-1); }
   void accept();
   void dismiss();
+  /// What was dismissed is on the list again.
+  void bring_back();
 
  signals:
   /// The user wants to see the list.
@@ -63,6 +65,7 @@ class WorklistPresenter : public QObject {
   LatestWork* work_;
   QTimer settle_;
   QAction* accept_action_ = nullptr;
+  QAction* bring_back_ = nullptr;
   bool shown_ = false;
   bool current_ = false;  // the list is that of the current document
   bool marked_ = false;   // paths and points in the view are ours
