@@ -191,7 +191,11 @@ Result<Comparison> compare(const Document& left, const Document& right, const Co
   if (context.cancelled()) return cancelled();
   result.only[1] = departure_of(right, left, result.tolerance);
   if (context.cancelled()) return cancelled();
-  compare_partitions(common_ground(left, right), result);
+  // Where only one has partitions (as while lines are tuned) there is nothing to carry to the scan.
+  if (left.partitions.labels.empty() || right.partitions.labels.empty())
+    result.divided_otherwise = std::max(assigned_share(left), assigned_share(right));
+  else
+    compare_partitions(common_ground(left, right), result);
   return result;
 }
 

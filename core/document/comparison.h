@@ -26,8 +26,9 @@ struct Comparison {
   /// Partitions that stand for each other, by their ids: those that share most area first. Each
   /// partition is in one pair at most.
   std::vector<std::array<std::uint32_t, 2>> partitions;
-  /// Share of the scan's area, 0 to 1, on which the two disagree: it belongs to partitions that do
-  /// not stand for each other, or to one in one version only.
+  /// Share of the area, 0 to 1, on which the two disagree: it belongs to partitions that do not
+  /// stand for each other, or to one in one version only. Of the mesh where both have one mesh or
+  /// only one has partitions, else of the scan.
   double divided_otherwise = 0.0;
 };
 

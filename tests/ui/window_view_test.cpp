@@ -121,6 +121,33 @@ TEST_F(WindowViewTest, PartitionsHideIsolateAndComeBack) {
   EXPECT_TRUE(view().pick(*at));
 }
 
+TEST_F(WindowViewTest, WhatIsHiddenIsHiddenOnTheScanToo) {
+  open_sample();
+  run_both();
+  const auto at = find([&](const Pick& p) {
+    return p.line == 0 && p.face != no_id && document().partitions.label(p.face) != 0;
+  });
+  ASSERT_TRUE(at);
+  PictureOptions options;
+  options.size = view().size();
+  options.scalar_bar = options.scale_bar = options.orientation_marker = false;
+  key(Qt::Key_W);
+  ASSERT_EQ(view().surface(), ShownSurface::reference);
+  const auto part_pixels = [&] {
+    const QImage image = view().picture(options);
+    qint64 count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) != QColor(Qt::white);
+    return count;
+  };
+  const qint64 whole = part_pixels();
+  window->elements().select({}, {document().partitions.label(view().pick(*at)->face)});
+  key(Qt::Key_H);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return part_pixels() < whole - 2000; }, patience));
+  key(Qt::Key_H, Qt::ShiftModifier);
+  EXPECT_EQ(part_pixels(), whole);
+}
+
 TEST_F(WindowViewTest, ARectangleSelectsLinesInTheirTable) {
   open_sample();
   run("find_sharp_lines");

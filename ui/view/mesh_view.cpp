@@ -295,6 +295,7 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
     impl_->brush_radius = brush_share * mesh->diagonal();
   impl_->mesh = std::move(mesh);
   impl_->reference.reset();
+  impl_->hidden_reference.clear();
   impl_->lines.clear();
   impl_->shown_lines.clear();
   impl_->line_types.clear();
@@ -322,6 +323,7 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
 
 void MeshView::set_reference(MeshPtr reference, double gap) {
   impl_->reference = std::move(reference);
+  impl_->hidden_reference.clear();
   impl_->scene.set_reference(impl_->reference, gap);
   impl_->reference_coarse = {};
   impl_->reference_coarse_given = false;
@@ -347,6 +349,14 @@ void MeshView::set_hidden_faces(std::vector<bool> hidden) {
   impl_->scene.set_hidden_faces(std::move(hidden));
   impl_->show_lines();
   impl_->show_marked_paths();
+  update();
+}
+
+void MeshView::set_hidden_reference_faces(std::vector<bool> hidden) {
+  if (!impl_->reference || hidden.size() != impl_->reference->face_count()) hidden.clear();
+  if (hidden == impl_->hidden_reference) return;
+  impl_->hidden_reference = hidden;
+  impl_->scene.set_hidden_reference_faces(std::move(hidden));
   update();
 }
 

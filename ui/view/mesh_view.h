@@ -132,6 +132,8 @@ class MeshView : public QOpenGLWidget {
   /// Faces that are neither drawn nor picked, nor are lines between two of them: one value for each
   /// face of the mesh, or empty for none. Gone with the mesh.
   void set_hidden_faces(std::vector<bool> hidden);
+  /// The same for the faces of the reference, with which they go.
+  void set_hidden_reference_faces(std::vector<bool> hidden);
   /// Cuts the part open; what is cut away is not picked. Stays when the mesh changes.
   void set_section(const std::optional<Section>& section);
   const std::optional<Section>& section() const;

@@ -72,6 +72,7 @@ struct MeshView::Impl {
   std::unordered_set<std::uint32_t> selected_lines;
   std::vector<std::vector<VertexId>> marked_paths;  // as given
   std::vector<bool> hidden;                         // faces; empty: none
+  std::vector<bool> hidden_reference;
   std::optional<Section> section;
   std::optional<ViewField> field;
   bool field_has_undefined = false;

@@ -510,6 +510,7 @@ void Scene::set_mesh(MeshPtr mesh) {
   highlight_->clear();
   body_->set_mesh(std::move(mesh));
   reference_->set_mesh(nullptr);
+  hidden_reference_.clear();
   if (body_->mesh) {
     origin_ = (body_->mesh->box_min() + body_->mesh->box_max()) / 2;
     radius_ = std::max(body_->mesh->diagonal() / 2, 1e-30);
@@ -527,6 +528,7 @@ void Scene::set_coarse(std::shared_ptr<const CoarseMesh> coarse) {
 
 void Scene::set_reference(MeshPtr mesh, double gap) {
   reference_->set_mesh(std::move(mesh));
+  hidden_reference_.clear();
   gap_ = gap;
   refresh();
 }
@@ -535,7 +537,7 @@ void Scene::set_reference_coarse(std::shared_ptr<const CoarseMesh> coarse) {
   reference_->coarse = std::move(coarse);
   if (!reference_->coarse || !reference_->uploaded) return;
   reference_->rough.set_triangles(reference_->coarse->triangles, reference_->coarse->source_faces,
-                                  {});
+                                  hidden_reference_);
 }
 
 void Scene::set_shown(ShownSurface shown) {
@@ -550,6 +552,12 @@ void Scene::set_hidden_faces(std::vector<bool> hidden) {
   hidden_ = std::move(hidden);
   body_->set_hidden(hidden_);
   outline_selection();
+  refresh();
+}
+
+void Scene::set_hidden_reference_faces(std::vector<bool> hidden) {
+  hidden_reference_ = std::move(hidden);
+  reference_->set_hidden(hidden_reference_);
   refresh();
 }
 
@@ -778,7 +786,7 @@ void Scene::show_field() {
   }
   for (Shape* shape : {&body_->fine, &body_->rough}) shape->paint(base, colour_share);
   if (shown() != ShownSurface::mesh) {
-    reference_->upload(origin_, {});
+    reference_->upload(origin_, hidden_reference_);
     if (edges_visible_)
       reference_->net.build(*reference_->mesh, reference_->fine.data->GetPoints(), {});
     for (Shape* shape : {&reference_->fine, &reference_->rough}) shape->paint(bare_colour, 0.0F);

@@ -52,8 +52,9 @@ class Scene {
   void set_shown(ShownSurface shown);
   /// What is drawn: the mesh where there is no reference.
   ShownSurface shown() const;
-  ShownSurface chosen() const { return shown_; }    ///< Reference or none.
-  void set_hidden_faces(std::vector<bool> hidden);  ///< Of the mesh; empty: none.
+  ShownSurface chosen() const { return shown_; }              ///< Reference or none.
+  void set_hidden_faces(std::vector<bool> hidden);            ///< Of the mesh; empty: none.
+  void set_hidden_reference_faces(std::vector<bool> hidden);  ///< The same, of the reference.
   void set_section(const std::optional<Section>& section);
   void set_field(const std::optional<ViewField>& field);
   void set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
@@ -98,7 +99,7 @@ class Scene {
 
   ShownSurface shown_ = ShownSurface::mesh;
   double gap_ = 0.0;
-  std::vector<bool> hidden_;
+  std::vector<bool> hidden_, hidden_reference_;
   std::optional<Section> section_;
   Point origin_ = Point::Zero();
   double radius_ = 1.0;

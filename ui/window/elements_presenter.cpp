@@ -81,7 +81,7 @@ ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
 
 ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables tables,
                                      QObject* parent)
-    : QObject(parent), session_(session), view_(view), tables_(tables) {
+    : QObject(parent), session_(session), view_(view), tables_(tables), scan_work_(this) {
   connect(session_, &Session::changed, this, [this] { refresh(); });
   connect(view_, &MeshView::clicked, this, &ElementsPresenter::clicked);
   connect(view_, &MeshView::banded, this, &ElementsPresenter::banded);
@@ -266,16 +266,31 @@ void ElementsPresenter::show_all() {
 }
 
 void ElementsPresenter::show_visibility() {
+  scan_work_.cancel();
   if (!hides_any()) {
     view_->set_hidden_faces({});
+    view_->set_hidden_reference_faces({});
     return;
   }
-  const auto& labels = session_->shown().document.partitions.labels;
+  const auto is_hidden = [hidden = hidden_, isolated = isolated_](std::uint32_t label) {
+    return hidden.contains(label) || (!isolated.empty() && !isolated.contains(label));
+  };
+  const Document& document = session_->shown().document;
+  const auto& labels = document.partitions.labels;
   std::vector<bool> hidden(labels.size());
-  for (FaceId f = 0; f < hidden.size(); ++f)
-    hidden[f] =
-        hidden_.contains(labels[f]) || (!isolated_.empty() && !isolated_.contains(labels[f]));
+  for (FaceId f = 0; f < hidden.size(); ++f) hidden[f] = is_hidden(labels[f]);
   view_->set_hidden_faces(std::move(hidden));
+  if (document.mesh == document.opened.mesh) return;
+  // On the scan, which may be shown instead: takes most of a second for a million faces.
+  scan_work_.start(
+      [document, is_hidden](const Context&) {
+        const std::vector<std::uint32_t> on_scan = labels_on_scan(document);
+        std::vector<bool> result(document.opened.mesh->face_count());
+        for (FaceId f = 0; f < result.size(); ++f)
+          result[f] = is_hidden(on_scan[document.scan_faces ? (*document.scan_faces)[f] : f]);
+        return result;
+      },
+      [this](std::vector<bool> result) { view_->set_hidden_reference_faces(std::move(result)); });
 }
 
 void ElementsPresenter::clear_sets() {

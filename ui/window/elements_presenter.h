@@ -7,6 +7,7 @@
 
 #include "ui/panels/element_table.h"
 #include "ui/view/mesh_view.h"
+#include "ui/window/latest_work.h"
 #include "ui/window/session.h"
 
 namespace arris::ui {
@@ -71,6 +72,7 @@ class ElementsPresenter : public QObject {
   bool partitions_shown_ = false;
   Ids lines_, partitions_, boundaries_;  // selected
   Ids hidden_, isolated_;                // partitions; none isolated: all are shown
+  LatestWork scan_work_;                 // which faces of the scan they are
 };
 
 }  // namespace arris::ui
