@@ -324,10 +324,13 @@ int compare_versions(const std::string& operations, const std::array<std::string
     summaries[side]["only_here"] = {{"sharp_length", comparison->only[side].sharp_length},
                                     {"soft_length", comparison->only[side].soft_length}};
   }
+  const nlohmann::json otherwise = comparison->divided_otherwise
+                                       ? nlohmann::json(*comparison->divided_otherwise)
+                                       : nlohmann::json();
   if (as_json) {
     std::cout << nlohmann::json{{"versions", summaries},
                                 {"tolerance", comparison->tolerance},
-                                {"divided_otherwise", comparison->divided_otherwise}}
+                                {"divided_otherwise", otherwise}}
                      .dump(2)
               << "\n";
     return 0;
@@ -338,8 +341,9 @@ int compare_versions(const std::string& operations, const std::array<std::string
               << " partitions; only here " << number_text(s["only_here"]["sharp_length"], 4)
               << " mm of sharp lines, " << number_text(s["only_here"]["soft_length"], 4)
               << " mm of other borders\n";
-  std::cout << fixed_text(100.0 * comparison->divided_otherwise, 1)
-            << " % of the area is divided otherwise\n";
+  if (comparison->divided_otherwise)
+    std::cout << fixed_text(100.0 * *comparison->divided_otherwise, 1)
+              << " % of the area is divided otherwise\n";
   return 0;
 }
 

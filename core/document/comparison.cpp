@@ -85,8 +85,9 @@ SegmentTree tree_of(const Document& document, bool sharp_only) {
   return SegmentTree(std::move(segments));
 }
 
-/// What `document` has beyond `other`.
-Departure departure_of(const Document& document, const Document& other, double tolerance) {
+/// What `document` has beyond `other`; of its sharp lines alone where `sharp_only`.
+Departure departure_of(const Document& document, const Document& other, double tolerance,
+                       bool sharp_only) {
   const SegmentTree sharp = tree_of(other, true), any = tree_of(other, false);
   const double tolerance2 = tolerance * tolerance;
   const Mesh& mesh = *document.mesh;
@@ -96,8 +97,8 @@ Departure departure_of(const Document& document, const Document& other, double t
       boundaries.size(),
       [&](std::size_t k) {
         const Boundary& boundary = *boundaries[k];
-        if (boundary.type == BoundaryType::border) return;
         const bool is_sharp = boundary.type == BoundaryType::c0;
+        if (boundary.type == BoundaryType::border || (sharp_only && !is_sharp)) return;
         const SegmentTree& with = is_sharp ? sharp : any;
         const auto agrees = [&](const Point& p) { return with.has_within(p, tolerance2); };
         Departure& departure = found[k];
@@ -187,15 +188,12 @@ Result<Comparison> compare(const Document& left, const Document& right, const Co
   Comparison result;
   result.tolerance =
       reach * std::max(left.mesh->mean_edge_length(), right.mesh->mean_edge_length());
-  result.only[0] = departure_of(left, right, result.tolerance);
+  const bool sharp_only = left.partitions.labels.empty() || right.partitions.labels.empty();
+  result.only[0] = departure_of(left, right, result.tolerance, sharp_only);
   if (context.cancelled()) return cancelled();
-  result.only[1] = departure_of(right, left, result.tolerance);
+  result.only[1] = departure_of(right, left, result.tolerance, sharp_only);
   if (context.cancelled()) return cancelled();
-  // Where only one has partitions (as while lines are tuned) there is nothing to carry to the scan.
-  if (left.partitions.labels.empty() || right.partitions.labels.empty())
-    result.divided_otherwise = std::max(assigned_share(left), assigned_share(right));
-  else
-    compare_partitions(common_ground(left, right), result);
+  if (!sharp_only) compare_partitions(common_ground(left, right), result);
   return result;
 }
 

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "core/base/context.h"
@@ -27,15 +27,16 @@ struct Comparison {
   /// partition is in one pair at most.
   std::vector<std::array<std::uint32_t, 2>> partitions;
   /// Share of the area, 0 to 1, on which the two disagree: it belongs to partitions that do not
-  /// stand for each other, or to one in one version only. Of the mesh where both have one mesh or
-  /// only one has partitions, else of the scan.
-  double divided_otherwise = 0.0;
+  /// stand for each other, or to one in one version only. Of the mesh where both have one mesh,
+  /// else of the scan. Absent where partitions were not found in both.
+  std::optional<double> divided_otherwise;
 };
 
 /// Where two versions of a part divide it otherwise. A sharp line agrees with a sharp line, any
 /// other borderline with any borderline, where both ends and the middle of its edge lie within 1.5
 /// mean edges (of the coarser of the two meshes) of it: as far as a veto reaches (document.md,
-/// rule 6). Free borders of the scan are not compared. Errors: the versions are not of one scan;
+/// rule 6). Free borders of the scan are not compared; where partitions were not found in both, as
+/// while lines are tuned, only sharp lines are. Errors: the versions are not of one scan;
 /// cancelled.
 Result<Comparison> compare(const Document& left, const Document& right,
                            const Context& context = {});

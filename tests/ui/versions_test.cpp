@@ -277,12 +277,79 @@ TEST_F(Versions, LineOfAnotherVersionIsTakenOver) {
           pick && pick->line != 0 && !document().lines.find(pick->line))
         at = QPoint(x, y);
   ASSERT_TRUE(at) << "the deleted line is seen in the other view";
+  // One selection for both: a key would not mean another line than the eye sees chosen.
+  window->elements().select({document().lines.lines.front()->id}, {});
   QTest::mouseClick(&other, Qt::LeftButton, {}, *at);
+  EXPECT_TRUE(window->elements().selected_lines().empty());
   ASSERT_FALSE(button("Take line over")->isHidden());
   QTest::mouseClick(button("Take line over"), Qt::LeftButton);
   ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && is_sharp() == path.size() - 1; }, patience));
+  EXPECT_TRUE(button("Take line over")->isHidden()) << "it is taken";
   ASSERT_TRUE(QTest::qWaitFor([&] { return comparison().comparison()->only[0].stretches.empty(); },
                               patience));
+}
+
+TEST_F(Versions, ChangingTheVersionQuicklyShowsTheLastOneChosen) {
+  open_sample();
+  find_lines(60.0);
+  run_both();
+  find_lines(15.0);
+  run({"find_partitions", nlohmann::json::object()});
+  const std::uint32_t last = rows();
+  window->show_partitions(true);
+  ASSERT_NO_FATAL_FAILURE(toggle_comparison());
+  for (int round = 0; round < 4; ++round)
+    for (std::uint32_t row = last - 1; row >= 1; --row) {
+      comparison().compare_with(row);
+      QTest::qWait(static_cast<int>(row % 3) * 8);
+    }
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
+  comparison().compare_with(2);
+  ASSERT_NO_FATAL_FAILURE(settle());
+  const Comparison expected = *compare(*history().document_at(2), document());
+  EXPECT_EQ(comparison().comparison()->only[0].stretches, expected.only[0].stretches);
+  EXPECT_EQ(comparison().comparison()->only[1].stretches, expected.only[1].stretches);
+}
+
+TEST_F(Versions, WhatIsHiddenIsHiddenInBothViews) {
+  open_sample();
+  run_both();
+  run({"smooth_curvature", {{"passes", 1}}});
+  ASSERT_NO_FATAL_FAILURE(toggle_comparison());  // the partitions are the same in both
+  MeshView& other = *comparison().other_view();
+  const auto part_pixels = [&] {
+    PictureOptions options;
+    options.size = other.size();
+    options.scale_bar = options.orientation_marker = false;
+    const QImage image = other.picture(options);
+    qint64 count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) != QColor(Qt::white);
+    return count;
+  };
+  const qint64 whole = part_pixels();
+  const auto largest = std::ranges::max_element(document().partitions.partitions, {},
+                                                [](const PartitionPtr& p) { return p->area; });
+  window->elements().select({}, {(*largest)->id});
+  QTest::keyClick(window.get(), Qt::Key_H);
+  EXPECT_LT(part_pixels(), whole * 3 / 4);
+  QTest::keyClick(window.get(), Qt::Key_H, Qt::ShiftModifier);
+  EXPECT_EQ(part_pixels(), whole);
+}
+
+TEST_F(Versions, AFittedPartIsFittedInTheRoomThereIs) {
+  open_sample();
+  find_lines(30.0);
+  MeshView& view = window->view();
+  view.fit();
+  QTest::qWait(50);
+  ASSERT_TRUE(view.is_fitted());
+  ASSERT_NO_FATAL_FAILURE(toggle_comparison());
+  EXPECT_TRUE(view.is_fitted());
+  ASSERT_NO_FATAL_FAILURE(toggle_comparison());
+  EXPECT_TRUE(view.is_fitted());
+  QTest::keyClick(&view, Qt::Key_5);
+  EXPECT_TRUE(view.is_fitted());
 }
 
 TEST_F(Versions, PictureHoldsBothAtTheSizeAsked) {
@@ -319,9 +386,10 @@ TEST_F(Versions, AnotherPartEndsTheComparison) {
   open_sample();
   EXPECT_FALSE(compare()->isEnabled());
   EXPECT_TRUE(compare()->toolTip().contains("only one state"));
-  find_lines(30.0);
+  for (const double angle : {20.0, 30.0, 40.0}) find_lines(angle);
   EXPECT_TRUE(compare()->isEnabled());
-  ASSERT_NO_FATAL_FAILURE(toggle_comparison());
+  comparison().compare_with(3);  // a row that the next part's history has not got
+  ASSERT_NO_FATAL_FAILURE(settle());
   EXPECT_TRUE(compare()->isChecked());
   window->session().mark_saved();
   window->open_sample();

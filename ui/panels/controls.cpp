@@ -139,6 +139,20 @@ void ElidedLabel::set_whole(const QString& text) {
   elide();
 }
 
+void ElidedLabel::set_prominent() {
+  prominent_ = true;
+  QFont bold = font();
+  bold.setBold(true);
+  setFont(bold);
+}
+
+void ElidedLabel::paintEvent(QPaintEvent* event) {
+  if (prominent_)
+    QLabel::paintEvent(event);
+  else
+    MutedLabel::paintEvent(event);
+}
+
 void ElidedLabel::resizeEvent(QResizeEvent* event) {
   MutedLabel::resizeEvent(event);
   elide();

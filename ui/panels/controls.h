@@ -54,13 +54,16 @@ class ElidedLabel : public MutedLabel {
  public:
   explicit ElidedLabel(QWidget* parent = nullptr);
   void set_whole(const QString& text);
+  void set_prominent();  ///< Bold, in the colour of text that is not secondary.
 
  protected:
+  void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
   void elide();
   QString whole_;
+  bool prominent_ = false;
 };
 
 /// Line that holds a number. Text that is none, or that the owner marks as a mistake, is underlined

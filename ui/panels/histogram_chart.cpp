@@ -150,6 +150,7 @@ void HistogramChart::paint_curve(QPainter& painter, const QRect& plot) const {
   const int middle = (line_x(curve.plateau->first, plot) + line_x(curve.plateau->second, plot)) / 2;
   const int width = metrics.horizontalAdvance(curve.plateau_text);
   const int room = metrics.horizontalAdvance(curve.label) + 16;
+  if (text.width() < width + room) return;
   // Over the plateau, or as near to it as no handle's line crosses the words.
   const int most_left = std::max(text.left(), text.right() - room - width);
   const int wanted = std::clamp(middle - width / 2, text.left(), most_left);

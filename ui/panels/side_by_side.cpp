@@ -53,7 +53,8 @@ SideBySide::SideBySide(QWidget* view, const QColor& marked, QWidget* parent) : Q
   for (QToolButton* button : {take_line_, travel_, close}) left->addWidget(button);
   auto* right = new QHBoxLayout(headers_[1].row);
   now_ = new ElidedLabel(headers_[1].row);
-  auto* marks = new QCheckBox(tr("Mark differences"), headers_[1].row);
+  now_->set_prominent();
+  auto* marks = new QCheckBox(tr("Marks"), headers_[1].row);
   marks->setChecked(true);
   marks->setToolTip(
       tr("Underlay what only one of the two versions has: stretches of lines and borders farther "
@@ -65,9 +66,12 @@ SideBySide::SideBySide(QWidget* view, const QColor& marked, QWidget* parent) : Q
     row->setSpacing(4);
   }
 
+  constexpr int least_width = 150;  // whatever the headers want: both views are alike
   other_side_ = new QWidget(splitter_);
+  other_side_->setMinimumWidth(least_width);
   other_column_ = new QVBoxLayout(other_side_);
   auto* side = new QWidget(splitter_);
+  side->setMinimumWidth(least_width);
   auto* column = new QVBoxLayout(side);
   for (QVBoxLayout* each : {other_column_, column}) {
     each->setContentsMargins(0, 0, 0, 0);

@@ -453,8 +453,11 @@ void MeshView::fit() {
     if (!impl_->mesh->is_isolated(v)) points.push_back(impl_->mesh->point(v));
   }
   impl_->frame_clear(points, logical_size(*this));
+  impl_->fitted = impl_->camera;
   update();
 }
+
+bool MeshView::is_fitted() const { return impl_->mesh && impl_->camera == impl_->fitted; }
 
 Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); }
 
@@ -594,7 +597,9 @@ void MeshView::initializeGL() {
   });
 }
 
-void MeshView::resizeGL(int, int) {}
+void MeshView::resizeGL(int, int) {
+  if (is_fitted()) fit();
+}
 
 void MeshView::paintGL() {
   if (!impl_->canvas.started()) return;

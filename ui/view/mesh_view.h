@@ -162,7 +162,10 @@ class MeshView : public QOpenGLWidget {
   void set_legend_visible(bool visible);  ///< That of the types of lines.
   void set_dark(bool dark);               ///< Ground and text colours.
 
-  void fit();  ///< The whole part in the view; keeps the direction.
+  /// The whole part in the view, clear of scalar bar and legend where there is room; keeps the
+  /// direction. Fitted anew when the view gets another size, until the camera is moved.
+  void fit();
+  bool is_fitted() const;
   enum class StandardView { front, back, left, right, top, bottom, isometric };
   /// Looks against this direction, upright as far as it goes; fits the part.
   void look_against(const Point& towards_viewer);

@@ -84,6 +84,7 @@ struct MeshView::Impl {
   Look told;  // by the last look_changed()
 
   ViewCamera camera;
+  ViewCamera fitted;  // as fit() left it
   Scene scene;
   GlCanvas canvas{scene};
   QMetaObject::Connection context_end;

@@ -32,6 +32,8 @@ QString holds_text(const Document& document) {
 
 QString only_text(const Departure& only) {
   if (only.stretches.empty()) return ComparisonPresenter::tr("nothing that the other has not");
+  if (only.soft_length == 0.0)
+    return ComparisonPresenter::tr("only here: %1 of lines").arg(mm(only.sharp_length));
   return ComparisonPresenter::tr("only here: %1 of lines, %2 of borders")
       .arg(mm(only.sharp_length), mm(only.soft_length));
 }
@@ -57,11 +59,23 @@ ComparisonPresenter::ComparisonPresenter(Session* session, MeshView* view, SideB
     show_headers();
     refresh();
   });
-  connect(session_, &Session::busy_changed, this, &ComparisonPresenter::refresh);
+  connect(session_, &Session::busy_changed, this, [this](bool busy) {
+    if (!busy) left_behind_.reset();  // of a travel that was cancelled, or failed
+    refresh();
+  });
   connect(fields_, &FieldPresenter::changed, this, &ComparisonPresenter::show_field);
   connect(elements_, &ElementsPresenter::partitions_shown_changed, this, [this] {
     show_field();
     show_partitions();
+  });
+  connect(elements_, &ElementsPresenter::visibility_changed, this,
+          &ComparisonPresenter::show_visibility);
+  // One selection for both views: keys mean the part as it is now.
+  connect(elements_, &ElementsPresenter::selection_changed, this, [this] {
+    const bool any = !elements_->selected_lines().empty() ||
+                     !elements_->selected_partitions().empty() ||
+                     !elements_->selected_boundaries().empty();
+    if (any) select_line(std::nullopt);
   });
   connect(view_, &MeshView::look_changed, this, [this] {
     if (other_) other_->look_like(*view_);
@@ -122,6 +136,7 @@ std::uint32_t ComparisonPresenter::likely_row() const {
 
 QString ComparisonPresenter::row_text(std::uint32_t sequence) const {
   const History& history = session_->history();
+  if (sequence == 0 || sequence > history.entries().size()) return {};
   const auto name = history.names().find(sequence);
   return QString::fromStdString(name != history.names().end()
                                     ? name->second
@@ -159,6 +174,8 @@ void ComparisonPresenter::begin(std::uint32_t sequence, Document version) {
   row_ = sequence;
   version_ = std::move(version);
   line_ = 0;
+  work_.cancel();  // it compares with the version before
+  outdated_ = false;
   comparison_.reset();
   colours_.clear();
   if (!other_) make_view();
@@ -188,19 +205,21 @@ void ComparisonPresenter::make_view() {
   connect(other_, &MeshView::hovered, this,
           [this](const std::optional<Pick>& pick) { emit hovered(version_, pick); });
   side_by_side_->set_other(other_);
-  view_->zoom_by(side_share);  // nearly as much of the part, in half the room
+  // Nearly as much of the part, in half the room; one that was fitted is fitted again.
+  if (!view_->is_fitted()) view_->zoom_by(side_share);
 }
 
 void ComparisonPresenter::stop() {
   if (!other_) return;
   work_.cancel();
   outdated_ = false;
+  left_behind_.reset();
   comparison_.reset();
   version_ = {};
   line_ = 0;
   view_->set_marked_paths({});
   side_by_side_->set_other(nullptr);
-  view_->zoom_by(1.0 / side_share);
+  if (!view_->is_fitted()) view_->zoom_by(1.0 / side_share);
   delete std::exchange(other_, nullptr);
   view_->setFocus();
   refresh();
@@ -213,6 +232,7 @@ void ComparisonPresenter::take_change(bool other_mesh) {
     begin(row, std::move(document));
     return;
   }
+  if (other_ && session_->current().document.scan != version_.scan) stop();  // another part
   refresh();
   if (!other_) return;
   if (other_mesh) view_->set_marked_paths({});
@@ -239,6 +259,7 @@ void ComparisonPresenter::take(const MeshPtr& mesh, const Comparison& comparison
   compared_mesh_ = mesh;
   show_marks();
   show_partitions();
+  show_visibility();
   show_headers();
 }
 
@@ -289,16 +310,33 @@ void ComparisonPresenter::show_partitions() {
   show_partitions_in(*other_, version_, colours_);
 }
 
+void ComparisonPresenter::show_visibility() {
+  if (!other_) return;
+  if (!elements_->hides_any() || !comparison_ || version_.partitions.labels.empty()) {
+    other_->set_hidden_faces({});
+    return;
+  }
+  // A partition is hidden with the one it stands for; one that stands for none is shown, but for
+  // where others are isolated.
+  std::vector<bool> hides(version_.next_id, elements_->isolates_any());
+  for (const auto& [before, after] : comparison_->partitions)
+    hides[before] = elements_->hides(after);
+  hides[0] = elements_->hides(0);
+  std::vector<bool> hidden(version_.mesh->face_count());
+  for (FaceId f = 0; f < hidden.size(); ++f) hidden[f] = hides[version_.partitions.labels[f]];
+  other_->set_hidden_faces(std::move(hidden));
+}
+
 void ComparisonPresenter::show_headers() {
   if (!other_) return;
   const Document& now = session_->shown().document;
   side_by_side_->set_figures(0, holds_text(version_),
                              comparison_ ? only_text(comparison_->only[0]) : tr("comparing…"));
   QString holds = holds_text(now);
-  if (comparison_)
+  if (comparison_ && comparison_->divided_otherwise)
     holds +=
         tr(" · %1 % of the area differs")
-            .arg(QString::fromStdString(fixed_text(100.0 * comparison_->divided_otherwise, 1)));
+            .arg(QString::fromStdString(fixed_text(100.0 * *comparison_->divided_otherwise, 1)));
   side_by_side_->set_figures(1, holds,
                              comparison_ ? only_text(comparison_->only[1]) : tr("comparing…"));
   side_by_side_->set_now(now_text());
@@ -314,13 +352,15 @@ void ComparisonPresenter::show_headers() {
     add(named->first, QString::fromStdString(named->second));
   if (history.head() != 0)
     if (const std::uint32_t before = history.entries()[history.head() - 1].parent)
-      add(before, tr("Before: %1").arg(row_text(history.head())));
+      add(before, tr("The state before “%1”").arg(row_text(history.head())));
   add(row_, row_text(row_));
   side_by_side_->set_versions(versions, row_);
 }
 
 void ComparisonPresenter::select_line(const std::optional<Pick>& pick) {
+  if (!other_) return;
   line_ = pick && pick->line < first_boundary ? pick->line : 0;
+  if (line_ != 0) elements_->clear_selection();
   other_->set_selected_lines(line_ == 0 ? std::unordered_set<std::uint32_t>()
                                         : std::unordered_set<std::uint32_t>{line_});
   refresh();
@@ -333,6 +373,7 @@ void ComparisonPresenter::take_line() {
   const Mesh& mesh = *session_->current().document.mesh;
   std::vector<VertexId> path = line->vertices;
   std::erase_if(path, [&](VertexId v) { return v >= mesh.vertex_count() || mesh.is_isolated(v); });
+  select_line(std::nullopt);
   session_->run({Operation{"draw_line", {{"vertices", path}}}});
 }
 
@@ -347,7 +388,7 @@ QImage ComparisonPresenter::picture(const PictureOptions& options) {
   const int gap = std::max(2, whole.width() / 400);
   const double scale =
       static_cast<double>(whole.width() - gap) / (2.0 * std::max(1, view_->width()));
-  const int caption = static_cast<int>(46 * scale);
+  const int caption = static_cast<int>(65 * scale);
   PictureOptions half = options;
   half.size = {(whole.width() - gap) / 2, whole.height() - caption};
   if (half.size.height() < caption) return {};
@@ -380,8 +421,13 @@ QImage ComparisonPresenter::picture(const PictureOptions& options) {
           QFontMetrics(font).elidedText(words, Qt::ElideRight, static_cast<int>(width)));
     };
     line(bold, 4, titles[side]);
-    line(view_->font(), 23,
-         comparison_ ? holds[side] + "  ·  " + only_text(comparison_->only[side]) : holds[side]);
+    line(view_->font(), 23, holds[side]);
+    if (comparison_) {
+      constexpr double key = 22.0;
+      painter.fillRect(QRectF(8, 47, key, 10), marked_colour());
+      painter.translate(key + 6.0, 0.0);
+      line(view_->font(), 42, only_text(comparison_->only[side]));
+    }
     painter.restore();
   }
   painter.fillRect(QRect(half.size.width(), 0, gap, whole.height()),

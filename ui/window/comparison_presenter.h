@@ -52,6 +52,7 @@ class ComparisonPresenter : public QObject {
   void show_field();
   bool plain_wanted() const;
   void show_partitions();
+  void show_visibility();
   void show_headers();
   void select_line(const std::optional<Pick>& pick);
   void take_line();

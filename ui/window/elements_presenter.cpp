@@ -272,22 +272,21 @@ void ElementsPresenter::show_visibility() {
     view_->set_hidden_reference_faces({});
     return;
   }
-  const auto is_hidden = [hidden = hidden_, isolated = isolated_](std::uint32_t label) {
-    return hidden.contains(label) || (!isolated.empty() && !isolated.contains(label));
-  };
   const Document& document = session_->shown().document;
   const auto& labels = document.partitions.labels;
   std::vector<bool> hidden(labels.size());
-  for (FaceId f = 0; f < hidden.size(); ++f) hidden[f] = is_hidden(labels[f]);
+  for (FaceId f = 0; f < hidden.size(); ++f) hidden[f] = hides(labels[f]);
   view_->set_hidden_faces(std::move(hidden));
   if (document.mesh == document.opened.mesh) return;
   // On the scan, which may be shown instead: takes most of a second for a million faces.
+  std::vector<bool> hides_id(document.next_id);
+  for (std::uint32_t id = 0; id < hides_id.size(); ++id) hides_id[id] = hides(id);
   scan_work_.start(
-      [document, is_hidden](const Context&) {
+      [document, hides_id](const Context&) {
         const std::vector<std::uint32_t> on_scan = labels_on_scan(document);
         std::vector<bool> result(document.opened.mesh->face_count());
         for (FaceId f = 0; f < result.size(); ++f)
-          result[f] = is_hidden(on_scan[document.scan_faces ? (*document.scan_faces)[f] : f]);
+          result[f] = hides_id[on_scan[document.scan_faces ? (*document.scan_faces)[f] : f]];
         return result;
       },
       [this](std::vector<bool> result) { view_->set_hidden_reference_faces(std::move(result)); });

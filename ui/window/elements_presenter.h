@@ -44,6 +44,11 @@ class ElementsPresenter : public QObject {
   void isolate_selected();
   void show_all();
   bool hides_any() const { return !hidden_.empty() || !isolated_.empty(); }
+  bool isolates_any() const { return !isolated_.empty(); }
+  /// Whether the faces of a partition (0: those of none) are hidden.
+  bool hides(std::uint32_t partition) const {
+    return hidden_.contains(partition) || (isolates_any() && !isolated_.contains(partition));
+  }
 
   /// What a table of lines and partitions needs made, in place.
   static ElementTable* make_lines_table(QWidget* parent);

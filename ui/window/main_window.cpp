@@ -136,7 +136,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
           tr("The scan was mended where a mesh cannot hold it: see Part ▸ Load report."), 10000);
   });
   connect(session_, &Session::done, this, [this](const QString& operation) {
-    if (operation == "find_partitions") show_partitions(true);
+    if (operation != "find_partitions") return;
+    show_partitions(true);
+    if (view_->is_fitted()) view_->fit();  // the legend is there now
   });
   connect(session_, &Session::failed, this, [this](const QString& message) {
     QMessageBox box(QMessageBox::Warning, "Arris", message, QMessageBox::Ok, this);
