@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/vector_state.h"
+
 namespace arris {
 
 /// Calls `body(i)` for i in [0, count) on the shared pool. Each call may write only what belongs to
@@ -14,6 +16,7 @@ template <class Body>
 void parallel_for(std::size_t count, const Body& body, std::size_t grain = 1024) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
+                      clear_vector_state();
                       for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
                     });
 }

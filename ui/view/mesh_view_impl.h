@@ -11,6 +11,7 @@
 #include <QThreadPool>
 #include <QTimer>
 
+#include "core/base/vector_state.h"
 #include "ui/view/gl_canvas.h"
 #include "ui/view/mesh_view.h"
 #include "ui/view/overlay.h"
@@ -29,6 +30,7 @@ Later<Value> in_background(QThreadPool& workers, Make make) {
   const auto promise = std::make_shared<std::promise<std::shared_ptr<const Value>>>();
   Later<Value> later = promise->get_future().share();
   workers.start([promise, make = std::move(make)] {
+    clear_vector_state();
     try {
       promise->set_value(std::make_shared<const Value>(make()));
     } catch (const std::bad_alloc&) {

@@ -9,6 +9,7 @@
 #include <QThreadPool>
 
 #include "core/base/context.h"
+#include "core/base/vector_state.h"
 
 namespace arris::ui {
 
@@ -31,6 +32,7 @@ class LatestWork : public QObject {
     pool_.start([this, work = std::move(work), take = std::move(take), stop = stop_.get_token(),
                  round = round_] {
       if (stop.stop_requested()) return;
+      clear_vector_state();
       const auto result = std::make_shared<decltype(work(Context()))>(work(Context(nullptr, stop)));
       QMetaObject::invokeMethod(this, [this, result, take, round] {
         if (round != round_) return;

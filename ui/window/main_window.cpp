@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <QAbstractEventDispatcher>
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
@@ -27,6 +28,7 @@
 #include <QToolBar>
 
 #include "core/base/number_text.h"
+#include "core/base/vector_state.h"
 #include "core/document/export.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
@@ -56,6 +58,9 @@ QString counted(std::size_t count, const QString& what) {
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   setWindowTitle("Arris");
   setAcceptDrops(true);
+  // Drawing in between may leave them dirty.
+  connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, this,
+          [] { clear_vector_state(); });
   setDockNestingEnabled(true);
   resize(1440, 900);
 
@@ -146,7 +151,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   });
   connect(session_, &Session::busy_changed, this, [this](bool busy) {
     if (busy) {
-      progress_->setRange(0, 0);
+      progress_->setValue(0);
       progress_->setFormat(QString());
       progress_delay_->start(progress_delay);
     } else {
@@ -157,7 +162,6 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     refresh_actions();
   });
   connect(session_, &Session::progress, this, [this](double fraction, const QString& what) {
-    progress_->setRange(0, 100);
     progress_->setValue(static_cast<int>(100.0 * fraction));
     progress_->setFormat(what + " %p %");
   });
@@ -280,6 +284,9 @@ void MainWindow::make_status_bar() {
   hover_label_ = new QLabel(this);
   counts_label_ = new QLabel(this);
   progress_ = new QProgressBar(this);
+  // Not the bar that runs to and fro: where the processor draws, its every step costs the work
+  // that it stands for.
+  progress_->setRange(0, 100);
   progress_->setFixedWidth(240);
   progress_->hide();
   cancel_ = new QPushButton(tr("Cancel"), this);

@@ -1,5 +1,6 @@
 #include "ui/window/session.h"
 
+#include <atomic>
 #include <chrono>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <QFile>
 #include <QStandardPaths>
 
+#include "core/base/vector_state.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
 
@@ -65,15 +67,26 @@ nlohmann::json Session::current_parameters(const std::string& step) const {
 }
 
 Context Session::context_of_work() {
+  const auto told = std::make_shared<std::atomic<Clock::rep>>(0);
   return Context(
-      [this](double fraction, std::string_view what) {
+      [this, told](double fraction, std::string_view what) {
+        // Told often enough to be seen; each time costs drawing.
+        constexpr Clock::duration least = std::chrono::milliseconds(100);
+        const Clock::rep now = Clock::now().time_since_epoch().count();
+        Clock::rep before = told->load();
+        if (now - before < least.count() || !told->compare_exchange_strong(before, now)) return;
         const QString text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()));
         QMetaObject::invokeMethod(this, [this, fraction, text] { emit progress(fraction, text); });
       },
       stop_.get_token());
 }
 
-void Session::start(std::function<void()> work) { pool_.start(std::move(work)); }
+void Session::start(std::function<void()> work) {
+  pool_.start([work = std::move(work)] {
+    clear_vector_state();
+    work();
+  });
+}
 
 void Session::show(Snapshot snapshot) {
   const MeshPtr before = shown().document.mesh;
