@@ -389,7 +389,10 @@ void MainWindow::make_actions() {
     surface->addAction(a);
   }
   show_field_->setChecked(true);
-  connect(show_partitions_, &QAction::toggled, elements_, &ElementsPresenter::set_partitions_shown);
+  connect(show_partitions_, &QAction::toggled, this, [this](bool shown) {
+    elements_->set_partitions_shown(shown);
+    if (view_->is_fitted()) view_->fit();  // the scalar bar comes or goes
+  });
 
   QMenu* field_menu = look->addMenu(tr("&Field"));
   field_actions_ = new QActionGroup(this);
