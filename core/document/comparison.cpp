@@ -179,10 +179,16 @@ void compare_partitions(const CommonGround& ground, Comparison& result) {
 
 }  // namespace
 
+bool are_of_one_scan(const Document& left, const Document& right) {
+  // A scan that a replay opened again is another object.
+  return !left.empty() && !right.empty() &&
+         (left.scan == right.scan || left.scan->mesh->hash() == right.scan->mesh->hash());
+}
+
 Result<Comparison> compare(const Document& left, const Document& right, const Context& context) {
   if (left.empty() || right.empty())
     return fail("Two versions of a part can be compared; here one of them has no part open.");
-  if (left.scan != right.scan && left.scan->mesh->hash() != right.scan->mesh->hash())
+  if (!are_of_one_scan(left, right))
     return fail("These versions are not of one scan: " + left.scan_path + " and " +
                 right.scan_path + ".");
   Comparison result;

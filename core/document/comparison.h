@@ -32,6 +32,9 @@ struct Comparison {
   std::optional<double> divided_otherwise;
 };
 
+/// Whether both are of one scan; false where one of them has no part open.
+bool are_of_one_scan(const Document& left, const Document& right);
+
 /// Where two versions of a part divide it otherwise. A sharp line agrees with a sharp line, any
 /// other borderline with any borderline, where both ends and the middle of its edge lie within 1.5
 /// mean edges (of the coarser of the two meshes) of it: as far as a veto reaches (document.md,
