@@ -232,7 +232,7 @@ void ComparisonPresenter::take_change(bool other_mesh) {
     begin(row, std::move(document));
     return;
   }
-  if (other_ && session_->current().document.scan != version_.scan) stop();  // another part
+  if (other_ && !are_of_one_scan(session_->current().document, version_)) stop();
   refresh();
   if (!other_) return;
   if (other_mesh) view_->set_marked_paths({});
@@ -249,7 +249,11 @@ void ComparisonPresenter::compare_anew() {
       [version = version_, now](const Context& context) { return compare(version, now, context); },
       [this, mesh = now.mesh](const Result<Comparison>& comparison) {
         if (!other_) return;
-        if (comparison) take(mesh, *comparison);
+        if (comparison)
+          take(mesh, *comparison);
+        else if (!comparison.error().cancelled)
+          side_by_side_->set_figures(0, holds_text(version_),
+                                     QString::fromStdString(comparison.error().message));
         if (std::exchange(outdated_, false)) compare_anew();
       });
 }
