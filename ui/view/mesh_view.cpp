@@ -134,6 +134,7 @@ ToolOverlay MeshView::Impl::tools(const ViewCamera& seen, QSizeF size) const {
 }
 
 void MeshView::Impl::frame_clear(const std::vector<Point>& points, QSizeF size) {
+  if (points.empty()) return;
   const auto [bar, legend] = overlay_panels(size, overlay(camera, camera.units_per_pixel(size)));
   const auto covered = [&](const ViewCamera& seen) {
     constexpr double room = 4.0;  // pixels about a panel
@@ -155,14 +156,22 @@ void MeshView::Impl::frame_clear(const std::vector<Point>& points, QSizeF size) 
     areas.emplace_back(0.0, legend.bottom(), right, size.height() - legend.bottom());
     areas.emplace_back(legend.right(), 0.0, right - legend.right(), size.height());
   }
+  // Two corners of the box about all points, upright on the screen, frame as all of them do.
+  Point low = camera.axes().transpose() * points.front(), high = low;
+  for (const Point& point : points) {
+    const Point local = camera.axes().transpose() * point;
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+  }
+  const std::vector<Point> ends{camera.axes() * low, camera.axes() * high};
   ViewCamera best = camera;
-  best.frame(points, size, fit_share, least_height());
+  best.frame(ends, size, fit_share, least_height());
   bool found = false;
   for (const QRectF& area : areas) {
     constexpr double least = 0.4;  // of the view; in less room the part may be partly covered
     if (area.width() < least * size.width() || area.height() < least * size.height()) continue;
     ViewCamera candidate = camera;
-    candidate.frame(points, size, fit_share, least_height(), area);
+    candidate.frame(ends, size, fit_share, least_height(), area);
     if ((found && candidate.height() >= best.height()) || covered(candidate)) continue;
     best = candidate;
     found = true;

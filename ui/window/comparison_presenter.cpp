@@ -339,7 +339,7 @@ void ComparisonPresenter::show_headers() {
   QString holds = holds_text(now);
   if (comparison_ && comparison_->divided_otherwise)
     holds +=
-        tr(" · %1 % of the area differs")
+        tr(" · %1 % differs")
             .arg(QString::fromStdString(fixed_text(100.0 * *comparison_->divided_otherwise, 1)));
   side_by_side_->set_figures(1, holds,
                              comparison_ ? only_text(comparison_->only[1]) : tr("comparing…"));
