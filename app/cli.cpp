@@ -159,7 +159,7 @@ int info(const std::string& scan, bool as_json) {
     json["size"] = {size.x(), size.y(), size.z()};
     json["mean_edge_length"] = mesh.mean_edge_length();
     json["angle_noise_degrees"] = angle_noise(*document.curvatures);
-    json["default_sharp_angle"] = default_sharp_angle(mesh, *document.curvatures);
+    json["default_sharp_angle"] = default_sharp_angle(mesh, *document.curvatures, LineMethod::normal_jump);
     json["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
     json["sentences"] = report.sentences();
     std::cout << json.dump(2) << "\n";
@@ -177,7 +177,7 @@ int info(const std::string& scan, bool as_json) {
             << "\n"
             << "exterior angles from noise: " << fixed_text(angle_noise(*document.curvatures), 1)
             << " degrees; sharp lines are looked for above "
-            << fixed_text(default_sharp_angle(mesh, *document.curvatures), 1) << " degrees\n";
+            << fixed_text(default_sharp_angle(mesh, *document.curvatures, LineMethod::normal_jump), 1) << " degrees\n";
   if (report.clean()) std::cout << "nothing had to be mended\n";
   for (const std::string& sentence : report.sentences()) std::cout << "- " << sentence << "\n";
   return 0;

@@ -105,6 +105,24 @@ Criterion Document::criterion() const {
              : Criterion::kabs;
 }
 
+LineMethod Document::line_method() const {
+  return find_sharp_lines && find_sharp_lines->parameters.value("method", "walk") == "walk"
+             ? LineMethod::walk
+             : LineMethod::normal_jump;
+}
+
+Result<LineEvidencePtr> line_evidence_of(const Document& document, const Context& context) {
+  if (!document.find_sharp_lines || document.line_method() == LineMethod::walk)
+    return LineEvidencePtr();
+  if (document.evidence) return document.evidence->get(context);
+  return SharedLineEvidence(document.mesh, document.curvatures).get(context);
+}
+
+CurvaturesPtr line_measures(const Document& document) {
+  const Result<LineEvidencePtr> evidence = line_evidence_of(document);
+  return *evidence ? (*evidence)->measures : document.curvatures;
+}
+
 std::string hash_of(const Document& document) {
   Hasher hasher;
   hasher.number(document.scan != nullptr);
@@ -181,6 +199,8 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
   if (document.mesh && document.mesh != base.mesh) bytes += document.mesh->bytes();
   if (document.curvatures && document.curvatures != base.curvatures)
     bytes += document.curvatures->bytes();
+  if (document.evidence && document.evidence != base.evidence)
+    bytes += document.evidence->bytes();
   const auto add_stage = [&](const Stage& stage, const Stage& other) {
     if (stage.mesh && stage.mesh != document.mesh && stage.mesh != other.mesh)
       bytes += stage.mesh->bytes() + (stage.curvatures ? stage.curvatures->bytes() : 0);

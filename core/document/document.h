@@ -17,6 +17,7 @@
 #include "core/partitions/boundaries.h"
 #include "core/partitions/partitions.h"
 #include "core/sharp_lines/lines.h"
+#include "core/sharp_lines/sharp_lines.h"
 #include "core/simplification/error_zones.h"
 
 namespace arris {
@@ -36,6 +37,7 @@ struct Stage {
   MeshPtr mesh;  ///< Null: the step has no output.
   CurvaturesPtr curvatures;
   ErrorZonesPtr zones;  ///< Null: every vertex is its own zone.
+  SharedLineEvidencePtr evidence;  ///< Of the mesh; null: nobody has needed it yet.
 };
 
 struct Document {
@@ -44,6 +46,8 @@ struct Document {
   MeshPtr mesh;              ///< The one current mesh.
   CurvaturesPtr curvatures;  ///< Of `mesh`; derived, shared.
   ErrorZonesPtr zones;       ///< Of `mesh`; null: nothing was simplified or swapped.
+  /// What tells sharp lines on `mesh`; derived, shared, and worked out when it is first needed.
+  SharedLineEvidencePtr evidence;
   /// Outputs of the steps before: the scan (flipped, cropped), then simplified, then swapped.
   /// Running a step again starts from the last of those before it (document.md, rule 3).
   Stage opened, simplified, swapped;
@@ -72,6 +76,8 @@ struct Document {
   bool is_divided_as(const Document& other) const;
   /// The criterion by which the partitions were found; kabs where they were not.
   Criterion criterion() const;
+  /// The method by which the lines were found; normal_jump where they were not.
+  LineMethod line_method() const;
   /// What is shown and what partitions are found by: smoothed where that was run.
   const CurvaturesPtr& shown_curvatures() const { return smoothed ? smoothed : curvatures; }
 };
@@ -81,6 +87,14 @@ struct Performed {
   Operation operation;
   Document document;
 };
+
+/// The evidence that the document's lines are found and treated by; null where they are found by
+/// the walk, or were not found. Works it out where nobody has asked before. Errors: cancelled.
+Result<LineEvidencePtr> line_evidence_of(const Document& document, const Context& context = {});
+
+/// What tells how sharp an edge or a vertex of the document's mesh is, by the method its lines are
+/// found by: IHe and IKabs, or the normal jump in their place.
+CurvaturesPtr line_measures(const Document& document);
 
 /// Content hash of the canonical serialisation: mesh, sharp edges with provenance, lines, labels,
 /// partitions, steps and next_id. Two documents are equal where it is.

@@ -88,7 +88,11 @@ Result<Operation> resolve(const Document& document, const Operation& operation) 
     return fail(operation.name + ": no part is open.");
   nlohmann::json parameters = operation.parameters;
   if (const auto version = parameters.find(version_key); version != parameters.end()) {
-    if (!version->is_number_integer() || version->get<std::int64_t>() != kind->version)
+    const bool is_older = version->is_number_integer() && version->get<std::int64_t>() >= 1 &&
+                          version->get<std::int64_t>() < kind->version && kind->upgrade;
+    if (is_older)
+      parameters = kind->upgrade(version->get<int>(), std::move(parameters));
+    else if (!version->is_number_integer() || version->get<std::int64_t>() != kind->version)
       return fail(operation.name + ": its version is " + version->dump() + ", this build knows " +
                   std::to_string(kind->version) + ".");
     parameters.erase(version_key);

@@ -44,6 +44,8 @@ struct OperationKind {
   Result<Document> (*apply)(const Document&, const nlohmann::json& parameters, const Context&);
   /// The gist of the parameters for the history: "24.0°"; may be empty.
   std::string (*gist)(const nlohmann::json& parameters);
+  /// Parameters stored by an older version as this version says the same; null: there is none.
+  nlohmann::json (*upgrade)(int version, nlohmann::json parameters) = nullptr;
 };
 
 /// All operations, by name.

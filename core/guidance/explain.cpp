@@ -426,7 +426,7 @@ Explanation explain_edge(const Document& document, EdgeId e) {
     if (!result.holds) result.headline = "Not on a line: sharp lines were not looked for yet.";
     return result;
   }
-  Stage base{document.mesh, document.curvatures, nullptr};
+  Stage base{document.mesh, document.curvatures, nullptr, document.evidence};
   std::optional<EdgeId> there = e;
   if (!out_of_date) {
     const Stage before = stage_before(document, "find_sharp_lines");

@@ -97,10 +97,13 @@ FaceId across_longest(const Mesh& mesh, const SharpLines& lines, FaceId f) {
 }  // namespace
 
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
+                                      const LineEvidence* evidence,
                                       const SharpLineOptions& options,
                                       std::vector<double> thresholds, std::size_t count,
                                       const Context& context) {
-  if (thresholds.empty()) thresholds = angles_of(curvatures, count);
+  const bool by_jump = options.method == LineMethod::normal_jump;
+  const Curvatures& measures = by_jump ? *evidence->measures : curvatures;
+  if (thresholds.empty()) thresholds = angles_of(measures, count);
   std::sort(thresholds.begin(), thresholds.end());
   StabilityCurve curve;
   curve.trivial = mesh.diagonal() / 2.0;  // a few short lines somewhere
@@ -114,11 +117,11 @@ Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvat
         SharpLineOptions own = options;
         own.angle = thresholds[k];
         const Result<std::vector<Origin>> edges =
-            find_sharp_edges(mesh, curvatures, own, context.silent());
+            find_sharp_edges(mesh, curvatures, evidence, own, context.silent());
         if (!edges) return;  // cancelled
         StabilityPoint& point = curve.points[k];
         point.threshold = thresholds[k];
-        for (const Line& line : derive_lines(mesh, curvatures, *edges)) {
+        for (const Line& line : derive_lines(mesh, measures, *edges)) {
           ++point.count;
           point.size += line.length;
         }

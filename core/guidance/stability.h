@@ -40,8 +40,9 @@ struct Plateau {
 /// Lines and their total length after find_sharp_edges() under `options` for each TV_IH.
 /// `thresholds`: degrees, 0 to 180, any order; empty: `count` of them evenly from 1.5 times the
 /// noise of the mesh (30 degrees at most) to its sharpest edge (120 at most). One
-/// find_sharp_edges() per threshold, in parallel. Errors: cancelled.
+/// find_sharp_edges() per threshold, in parallel; `evidence` as there. Errors: cancelled.
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
+                                      const LineEvidence* evidence,
                                       const SharpLineOptions& options,
                                       std::vector<double> thresholds = {}, std::size_t count = 24,
                                       const Context& context = {});

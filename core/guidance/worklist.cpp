@@ -207,9 +207,10 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
   keep_largest(items, options.most_per_kind);
   const double angle = document.find_sharp_lines
                            ? document.find_sharp_lines->parameters.at("angle").get<double>()
-                           : default_sharp_angle(mesh, *document.curvatures);
+                           : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk);
+  const CurvaturesPtr measures = line_measures(document);
   const double reach = options.reach * mesh.mean_edge_length();
-  const Continuations continuations(mesh, *document.curvatures, document.lines, ends,
+  const Continuations continuations(mesh, *measures, document.lines, ends,
                                     angle * std::numbers::pi / 180.0, reach);
   parallel_for(
       items.size(),

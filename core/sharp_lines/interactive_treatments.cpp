@@ -225,7 +225,7 @@ std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region)
 }
 
 LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
-                             const SharpLines& lines, const std::unordered_set<VertexId>& region,
+                             const LineEvidence* evidence, const SharpLines& lines, const std::unordered_set<VertexId>& region,
                              const SharpLineOptions& options) {
   LocalEdges edges(mesh, lines);
   edges.keep_to(region);
@@ -252,9 +252,16 @@ LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
   for (const EdgeId e : sharp)
     if (lines.edges[e] == Origin::found && !locked.contains(e)) edges.drop(e);
 
-  CandidateWalk<LocalEdges> walk(mesh, curvatures, options, edges);
-  walk.run(seeds);
-  walk.close(inside);
+  if (options.method == LineMethod::normal_jump) {
+    SharpLineOptions all = options;
+    all.min_length = 0.0;  // what is isolated is decided below, with the lines that stay
+    for (const EdgeId e : choose_sharp_edges(mesh, *evidence, all))
+      if (edges.may_take(e)) edges.take(e);
+  } else {
+    CandidateWalk<LocalEdges> walk(mesh, curvatures, options, edges);
+    walk.run(seeds);
+    walk.close(inside);
+  }
 
   // Isolated new lines that are too short: groups of new edges that touch nothing else.
   LineChanges changes = edges.result(Origin::found);

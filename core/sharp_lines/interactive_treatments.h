@@ -71,10 +71,11 @@ struct Region {
 std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region);
 
 /// Finds the sharp edges inside a region again under thresholds of its own: found edges with both
-/// ends inside go, but for those of locked lines, and are identified anew; isolated lines that lie
-/// inside altogether and are shorter than options.min_length go.
+/// ends inside go, but for those of locked lines, and are found anew by options.method (`evidence`:
+/// as find_sharp_edges()); isolated lines that lie inside altogether and are shorter than
+/// options.min_length go.
 LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
-                             const SharpLines& lines, const std::unordered_set<VertexId>& region,
+                             const LineEvidence* evidence, const SharpLines& lines, const std::unordered_set<VertexId>& region,
                              const SharpLineOptions& options);
 
 }  // namespace arris

@@ -48,10 +48,30 @@ std::vector<Origin> identify_sharp_edges(const Mesh& mesh, const Curvatures& cur
   return edges.result();
 }
 
+std::vector<EdgeId> choose_sharp_edges(const Mesh& mesh, const LineEvidence& evidence,
+                                       const SharpLineOptions& options) {
+  const double unit = mesh.mean_edge_length() > 0.0 ? mesh.mean_edge_length() : 1.0;
+  LineChoiceOptions choice;
+  choice.angle = static_cast<float>(options.angle);
+  choice.max_angle = static_cast<float>(options.max_angle);
+  choice.convex = options.convexity != Convexity::concave;
+  choice.concave = options.convexity != Convexity::convex;
+  choice.gap = static_cast<float>(options.bridge_gap / unit);
+  choice.least_group = static_cast<float>(options.min_length / unit);
+  return evidence.candidates.choose(choice);
+}
+
 Result<std::vector<Origin>> find_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
+                                             const LineEvidence* evidence,
                                              const SharpLineOptions& options,
                                              const Context& context) {
   context.report(0.0, "sharp lines");
+  if (options.method == LineMethod::normal_jump) {
+    std::vector<Origin> edges(mesh.edge_count(), Origin::none);
+    for (const EdgeId e : choose_sharp_edges(mesh, *evidence, options)) edges[e] = Origin::found;
+    context.report(1.0, "sharp lines");
+    return edges;
+  }
   std::vector<Origin> edges = identify_sharp_edges(mesh, curvatures, options);
   if (context.cancelled()) return cancelled();
   context.report(0.5, "sharp lines");
@@ -75,10 +95,18 @@ double angle_noise(const Curvatures& curvatures) {
   return 1.4826 * *middle / degree;  // median of |x| to standard deviation of a Gaussian
 }
 
-double default_sharp_angle(const Mesh&, const Curvatures& curvatures) {
+double default_sharp_angle(const Mesh& mesh, const Curvatures& curvatures, LineMethod method) {
+  if (method == LineMethod::normal_jump)
+    return std::round(jump_threshold(normal_noise(mesh, FaceTable(mesh))));
   return std::clamp(std::round(2.5 * angle_noise(curvatures)), 20.0, 60.0);
 }
 
-double default_min_length(const Mesh& mesh) { return 3.0 * mesh.mean_edge_length(); }
+double default_min_length(const Mesh& mesh, LineMethod method) {
+  return (method == LineMethod::normal_jump ? 6.0 : 3.0) * mesh.mean_edge_length();
+}
+
+double default_bridge_gap(const Mesh& mesh, LineMethod method) {
+  return method == LineMethod::normal_jump ? 4.0 * mesh.mean_edge_length() : 0.0;
+}
 
 }  // namespace arris

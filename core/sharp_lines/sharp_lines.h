@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
+#include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/lines.h"
 
 namespace arris {
@@ -16,14 +17,22 @@ namespace arris {
 /// Which edges may be sharp by the sign of their exterior angle.
 enum class Convexity : std::uint8_t { any, convex, concave };
 
+/// How sharp lines are found.
+enum class LineMethod {
+  normal_jump,  ///< Borders of regions by the jump of the mean normal: stands the noise of scans.
+  walk,         ///< The paper's (section 6.1): walks along edges by |IHe| and IKabs.
+};
+
 /// Section 6. Angles in degrees, lengths in the mesh's unit.
 struct SharpLineOptions {
+  LineMethod method = LineMethod::walk;
   double angle = 30.0;  // TV_IH, over 0 to 180; see default_sharp_angle() for one from the part
   double max_angle = 180.0;              // upper bound of the exterior angle, 0 to 180
   Convexity convexity = Convexity::any;  // convex and concave edges both count in the paper
-  int candidates = 3;                    // the paper's alpha (figure 26), 1 to 32
+  int candidates = 3;                    // the paper's alpha (figure 26), 1 to 32; walk
   double min_length = 0.0;               // isolated lines shorter than this go; 0 keeps them
-  int parallel_distance = 1;  // edges between parallel lines of which the weaker goes; 0 keeps both
+  // Edges between parallel lines of which the weaker goes; 0 keeps both; walk.
+  int parallel_distance = 1;
   double bridge_gap = 0.0;    // loose ends no farther apart than this are joined; 0 joins none
 };
 
@@ -43,20 +52,30 @@ inline bool may_be_sharp(float beta, const SharpLineOptions& options) {
 std::vector<Origin> identify_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
                                          const SharpLineOptions& options);
 
-/// Identification, then the automatic treatments of section 6.3.1. Errors: cancelled.
+/// The sharp edges by options.method. Walk: identification, then the automatic treatments of
+/// section 6.3.1. Normal jump: a choice from `evidence`, which is of this mesh and not null then,
+/// at a cost that follows the lines and not the mesh. One flag per edge. Errors: cancelled.
 Result<std::vector<Origin>> find_sharp_edges(const Mesh& mesh, const Curvatures& curvatures,
+                                             const LineEvidence* evidence,
                                              const SharpLineOptions& options,
                                              const Context& context = {});
+
+/// The edges chosen by the method of the normal jump, by increasing number.
+std::vector<EdgeId> choose_sharp_edges(const Mesh& mesh, const LineEvidence& evidence,
+                                       const SharpLineOptions& options);
 
 /// Standard deviation in degrees of the exterior angles that noise alone gives this mesh: robust,
 /// from the median of |IHe|, so that sharp lines do not count.
 double angle_noise(const Curvatures& curvatures);
 
-/// TV_IH for this part in degrees: above what its noise gives an edge, and at least what an
-/// engineer calls sharp.
-double default_sharp_angle(const Mesh& mesh, const Curvatures& curvatures);
+/// TV_IH for this part in degrees: above what its noise gives an edge (walk), or the jump of the
+/// normals (normal jump), and at least what an engineer calls sharp.
+double default_sharp_angle(const Mesh& mesh, const Curvatures& curvatures, LineMethod method);
 
 /// Length in mm below which an isolated line on this part is rather noise than a line.
-double default_min_length(const Mesh& mesh);
+double default_min_length(const Mesh& mesh, LineMethod method);
+
+/// Longest stretch in mm that is closed between two lines: none by the walk.
+double default_bridge_gap(const Mesh& mesh, LineMethod method);
 
 }  // namespace arris

@@ -33,7 +33,7 @@ struct Part {
   Part(const Triangles& triangles, double angle) : Part(triangles) {
     SharpLineOptions options;
     options.angle = angle;
-    set_lines(value_of(find_sharp_edges(*mesh, *curvatures, options)));
+    set_lines(value_of(find_sharp_edges(*mesh, *curvatures, nullptr, options)));
   }
   void set_lines(const std::vector<Origin>& edges) {
     lines = relink_lines(*mesh, *curvatures, edges, {}, next_id);

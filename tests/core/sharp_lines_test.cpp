@@ -32,7 +32,7 @@ struct Part {
     return identify_sharp_edges(*mesh, *curvatures, options);
   }
   std::vector<Origin> find(const SharpLineOptions& options) const {
-    return value_of(find_sharp_edges(*mesh, *curvatures, options));
+    return value_of(find_sharp_edges(*mesh, *curvatures, nullptr, options));
   }
   std::vector<Line> lines(const std::vector<Origin>& edges) const {
     return derive_lines(*mesh, *curvatures, edges);
@@ -54,8 +54,8 @@ SharpLineOptions options_with_angle(double angle) {
 /// What default parameters come to on this part.
 SharpLineOptions default_options(const Part& part) {
   SharpLineOptions options;
-  options.angle = default_sharp_angle(*part.mesh, *part.curvatures);
-  options.min_length = default_min_length(*part.mesh);
+  options.angle = default_sharp_angle(*part.mesh, *part.curvatures, LineMethod::walk);
+  options.min_length = default_min_length(*part.mesh, LineMethod::walk);
   return options;
 }
 
@@ -248,9 +248,9 @@ TEST(SharpLines, AngleNoiseIsThatOfTheNoiseAndNotOfTheLines) {
   EXPECT_NEAR(angle_noise(*rough.curvatures) / angle_noise(*calm.curvatures), 2.0, 0.05);
   const Part step(stepped_plate(20.0, 40.0, 5.0, 1.0));
   EXPECT_NEAR(angle_noise(*step.curvatures), 0.0, 1e-3);
-  const double angle = default_sharp_angle(*rough.mesh, *rough.curvatures);
+  const double angle = default_sharp_angle(*rough.mesh, *rough.curvatures, LineMethod::walk);
   EXPECT_GT(angle, 2.0 * angle_noise(*rough.curvatures));
-  EXPECT_GE(angle, default_sharp_angle(*calm.mesh, *calm.curvatures));
+  EXPECT_GE(angle, default_sharp_angle(*calm.mesh, *calm.curvatures, LineMethod::walk));
 }
 
 TEST(SharpLines, CancelledWorkIsAnErrorThatSaysSo) {
@@ -258,7 +258,7 @@ TEST(SharpLines, CancelledWorkIsAnErrorThatSaysSo) {
   std::stop_source stop;
   stop.request_stop();
   const auto result =
-      find_sharp_edges(*part.mesh, *part.curvatures, {}, Context(nullptr, stop.get_token()));
+      find_sharp_edges(*part.mesh, *part.curvatures, nullptr, {}, Context(nullptr, stop.get_token()));
   ASSERT_FALSE(result);
   EXPECT_TRUE(result.error().cancelled);
 }

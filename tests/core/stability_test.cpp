@@ -26,7 +26,7 @@ TEST(LineStability, ABoxHasTwelveLinesBelowNinetyDegreesAndNoneAbove) {
     SCOPED_TRACE(divisions);
     const MeshPtr mesh = mesh_of(divided_cube(10.0, divisions));
     const CurvaturesPtr curvatures = curvatures_of(*mesh);
-    const StabilityCurve curve = value_of(line_stability(*mesh, *curvatures, {}));
+    const StabilityCurve curve = value_of(line_stability(*mesh, *curvatures, nullptr, {}));
     ASSERT_EQ(curve.points.size(), 24u);
     double last_below = 0.0;
     for (const StabilityPoint& point : curve.points) {
@@ -48,16 +48,16 @@ TEST(LineStability, EachPointIsWhatTheStepFinds) {
   const MeshPtr mesh = mesh_of(sample_mould(2.5));
   const CurvaturesPtr curvatures = curvatures_of(*mesh);
   SharpLineOptions options;
-  options.min_length = default_min_length(*mesh);
+  options.min_length = default_min_length(*mesh, LineMethod::walk);
   const StabilityCurve curve =
-      value_of(line_stability(*mesh, *curvatures, options, {40.0, 15.0, 25.0}));
+      value_of(line_stability(*mesh, *curvatures, nullptr, options, {40.0, 15.0, 25.0}));
   ASSERT_EQ(curve.points.size(), 3u);
   EXPECT_EQ(curve.points[0].threshold, 15.0);
   EXPECT_EQ(curve.points[2].threshold, 40.0);
   for (const StabilityPoint& point : curve.points) {
     options.angle = point.threshold;
     const std::vector<Line> lines =
-        derive_lines(*mesh, *curvatures, value_of(find_sharp_edges(*mesh, *curvatures, options)));
+        derive_lines(*mesh, *curvatures, value_of(find_sharp_edges(*mesh, *curvatures, nullptr, options)));
     double length = 0.0;
     for (const Line& line : lines) length += line.length;
     EXPECT_EQ(point.count, lines.size());
@@ -108,7 +108,7 @@ TEST(Stability, IsTheSameOnOneThreadAndOnTwo) {
   const Document document = applied(document_of(sample_mould(2.5)), {"find_sharp_lines", {}});
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return std::pair{value_of(line_stability(*document.mesh, *document.curvatures, {})),
+    return std::pair{value_of(line_stability(*document.mesh, *document.curvatures, nullptr, {})),
                      value_of(partition_stability(*document.mesh, document.curvatures->kabs,
                                                   document.lines, {}))};
   };
@@ -117,7 +117,7 @@ TEST(Stability, IsTheSameOnOneThreadAndOnTwo) {
 
 TEST(Stability, CanBeCancelled) {
   const Document document = applied(document_of(sample_mould(2.5)), {"find_sharp_lines", {}});
-  const auto lines = line_stability(*document.mesh, *document.curvatures, {}, {}, 24, stopped());
+  const auto lines = line_stability(*document.mesh, *document.curvatures, nullptr, {}, {}, 24, stopped());
   ASSERT_FALSE(lines);
   EXPECT_TRUE(lines.error().cancelled);
   const auto partitions = partition_stability(*document.mesh, document.curvatures->kabs,

@@ -115,7 +115,7 @@ void StabilityPresenter::refresh() {
         const nlohmann::json& p = basis.parameters;
         if (of_lines) {
           return with_plateau(
-              line_stability(*basis.mesh, *basis.curvatures, line_options_of(p), {}, 24, context));
+              line_stability(*basis.mesh, *basis.curvatures, evidence, options, {}, 24, context));
         }
         PartitionOptions options;
         options.criterion = p.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;

@@ -26,12 +26,16 @@ Result<void> change_mesh(Document& document, Stage stage, const Context& context
     if (!curvatures) return tl::unexpected<Error>(curvatures.error());
     stage.curvatures = std::move(*curvatures);
   }
-  if (!document.lines.edges.empty())
-    document.lines =
-        relink_lines(*stage.mesh, *stage.curvatures, sharp_edges_on(document, *stage.mesh),
-                     document.lines, document.next_id);
+  if (!stage.evidence)
+    stage.evidence = std::make_shared<const SharedLineEvidence>(stage.mesh, stage.curvatures);
+  std::vector<Origin> edges;
+  if (!document.lines.edges.empty()) edges = sharp_edges_on(document, *stage.mesh);
   document.mesh = std::move(stage.mesh);
   document.curvatures = std::move(stage.curvatures);
+  document.evidence = std::move(stage.evidence);
+  if (!edges.empty())
+    document.lines = relink_lines(*document.mesh, *line_measures(document), edges, document.lines,
+                                  document.next_id);
   document.zones = std::move(stage.zones);
   document.smoothed = nullptr;
   document.partitions = {};

@@ -125,10 +125,10 @@ Result<Document> apply_delete(const Document& document, const nlohmann::json& pa
   Document result = document;
   outdate_after(result, "open");
   if (const auto changed =
-          change_mesh(result, {built->mesh, nullptr, nullptr}, context.part(0.5, 1.0));
+          change_mesh(result, {built->mesh, nullptr, nullptr, nullptr}, context.part(0.5, 1.0));
       !changed)
     return tl::unexpected<Error>(changed.error());
-  result.opened = {result.mesh, result.curvatures, nullptr};
+  result.opened = {result.mesh, result.curvatures, nullptr, result.evidence};
   result.scan_faces = std::move(scan_faces);
   return result;
 }

@@ -18,12 +18,18 @@ Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::j
   const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
   const SharpLineOptions defaults;
   ParameterReader reader("find_sharp_lines", given);
-  reader.real("angle", default_sharp_angle(mesh, *base.curvatures), 0.1, 179.9);
+  const LineMethod method =
+      reader.choice("method", "normal_jump", {"normal_jump", "walk"}) == "walk"
+          ? LineMethod::walk
+          : LineMethod::normal_jump;
+  const bool has_angle = reader.has("angle") && !given["angle"].is_null();
+  reader.real("angle", has_angle ? 0.0 : default_sharp_angle(mesh, *base.curvatures, method), 0.1,
+              179.9);
   read_bounds(reader);
   reader.whole("candidates", defaults.candidates, 1, 32);
-  reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
+  reader.real("min_length", default_min_length(mesh, method), 0.0, longest);
   reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);
-  reader.real("bridge_gap", defaults.bridge_gap, 0.0, longest);
+  reader.real("bridge_gap", default_bridge_gap(mesh, method), 0.0, longest);
   // Corrections made by hand are done again on what is found.
   reader.flag("corrections", true);
   return reader.finish();
@@ -38,10 +44,16 @@ Result<Document> apply_lines(const Document& document, const nlohmann::json& par
           change_mesh(result, stage_before(document, "find_sharp_lines"), context.part(0.0, 0.1));
       !changed)
     return tl::unexpected<Error>(changed.error());
+  result.find_sharp_lines = Step{parameters, false};
   if (const auto found = refind_lines(result, parameters, context.part(0.1, 1.0)); !found)
     return tl::unexpected<Error>(found.error());
-  result.find_sharp_lines = Step{parameters, false};
   return result;
+}
+
+/// Version 1 knew the walk only.
+nlohmann::json upgrade_lines(int, nlohmann::json parameters) {
+  parameters["method"] = "walk";
+  return parameters;
 }
 
 std::string gist_lines(const nlohmann::json& parameters) {
@@ -51,7 +63,8 @@ std::string gist_lines(const nlohmann::json& parameters) {
 
 }  // namespace
 
-const OperationKind find_sharp_lines_operation{"find_sharp_lines", "Find sharp lines", 1,
-                                               resolve_lines,      apply_lines,        gist_lines};
+const OperationKind find_sharp_lines_operation{"find_sharp_lines", "Find sharp lines", 2,
+                                               resolve_lines,      apply_lines,        gist_lines,
+                                               upgrade_lines};
 
 }  // namespace arris

@@ -22,7 +22,8 @@ Result<Stage> flipped(const Stage& stage, const Context& context) {
   if (!mesh) return tl::unexpected<Error>(mesh.error());
   Result<CurvaturesPtr> curvatures = compute_curvatures(**mesh, stage.curvatures->options, context);
   if (!curvatures) return tl::unexpected<Error>(curvatures.error());
-  return Stage{std::move(*mesh), std::move(*curvatures), stage.zones};
+  auto evidence = std::make_shared<const SharedLineEvidence>(*mesh, *curvatures);
+  return Stage{std::move(*mesh), std::move(*curvatures), stage.zones, std::move(evidence)};
 }
 
 /// Faces and edges keep their numbers, so lines, zones and partitions stay: Kabs and IKabs do not
@@ -30,7 +31,7 @@ Result<Stage> flipped(const Stage& stage, const Context& context) {
 Result<Document> apply_flip(const Document& document, const nlohmann::json&,
                             const Context& context) {
   Document result = document;
-  Stage current{document.mesh, document.curvatures, document.zones};
+  Stage current{document.mesh, document.curvatures, document.zones, document.evidence};
   std::vector<std::pair<MeshPtr, Stage>> done;  // outputs share meshes
   for (Stage* stage : {&result.opened, &result.simplified, &result.swapped, &current}) {
     const auto known = std::find_if(done.begin(), done.end(),
@@ -38,6 +39,7 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
     if (known != done.end()) {
       stage->mesh = known->second.mesh;
       stage->curvatures = known->second.curvatures;
+      stage->evidence = known->second.evidence;
       continue;
     }
     const MeshPtr before = stage->mesh;
@@ -48,9 +50,10 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
   }
   result.mesh = current.mesh;
   result.curvatures = current.curvatures;
+  result.evidence = current.evidence;
   if (!document.lines.edges.empty())
     result.lines =
-        relink_lines(*result.mesh, *result.curvatures, sharp_edges_on(document, *result.mesh),
+        relink_lines(*result.mesh, *line_measures(result), sharp_edges_on(document, *result.mesh),
                      document.lines, result.next_id);
   if (document.smoothed) {
     // Not smoothed anew: the lines may have changed since, and flipping twice must change nothing.

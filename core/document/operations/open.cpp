@@ -31,7 +31,8 @@ Result<Document> apply_open(const Document& document, const nlohmann::json& para
       compute_curvatures(*result.mesh, {}, context.part(0.7, 1.0));
   if (!curvatures) return tl::unexpected<Error>(curvatures.error());
   result.curvatures = *curvatures;
-  result.opened = {result.mesh, result.curvatures, nullptr};
+  result.evidence = std::make_shared<const SharedLineEvidence>(result.mesh, result.curvatures);
+  result.opened = {result.mesh, result.curvatures, nullptr, result.evidence};
   result.next_id = document.next_id;  // ids are never used twice in one history
   return result;
 }

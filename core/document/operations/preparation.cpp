@@ -25,15 +25,16 @@ Result<Document> take(const Document& document, const Stage& base, Prepared prep
                       const Context& context) {
   Document result = document;
   outdate_after(result, step);
-  Stage stage{std::move(prepared.mesh), nullptr, std::move(prepared.zones)};
+  Stage stage{std::move(prepared.mesh), nullptr, std::move(prepared.zones), nullptr};
   if (stage.mesh->hash() == base.mesh->hash()) {  // nothing to do was found
     stage.mesh = base.mesh;
     stage.curvatures = base.curvatures;
+    stage.evidence = base.evidence;
   }
   if (const auto changed = change_mesh(result, stage, context); !changed)
     return tl::unexpected<Error>(changed.error());
   result.zones = stage.zones;
-  if (output) result.*output = {result.mesh, result.curvatures, result.zones};
+  if (output) result.*output = {result.mesh, result.curvatures, result.zones, result.evidence};
   result.*record = Step{parameters, false};
   return result;
 }
@@ -66,7 +67,7 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
                                    : StarCost::area;
   // Again: from the current mesh, as section 4.1 allows later in the chain; found lines stay then.
   const Stage base = parameters.at("again")
-                         ? Stage{document.mesh, document.curvatures, document.zones}
+                         ? Stage{document.mesh, document.curvatures, document.zones, document.evidence}
                          : stage_before(document, "simplify");
   const ChunkedArray<Origin> locked =
       base.mesh == document.mesh ? locked_edges(document, *base.mesh) : ChunkedArray<Origin>();

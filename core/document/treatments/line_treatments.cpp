@@ -82,7 +82,7 @@ Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
       distance(anchor.front(), last) + distance(anchor.back(), first) <
           distance(anchor.front(), first) + distance(anchor.back(), last))
     ends = ends == LineEnds::first ? LineEnds::last : LineEnds::first;
-  ground.change(extend_line(ground.mesh, ground.curvatures, ground.lines, **line, ends,
+  ground.change(extend_line(ground.mesh, ground.measures(), ground.lines, **line, ends,
                             parameters.at("angle"), parameters.at("candidates")));
   return outcome;
 }
@@ -170,7 +170,7 @@ Result<Outcome> merge(Ground& ground, const json& parameters, Round round) {
       find_line(ground, parameters.at("b"), path_of(parameters.at("path_b")), round, outcome);
   if (!b) return tl::unexpected<Error>(b.error());
   if (*a == *b) return Outcome{"They are one line already."};
-  const Result<Path> path = bridge_between(ground.mesh, ground.curvatures, ground.lines, **a, **b,
+  const Result<Path> path = bridge_between(ground.mesh, ground.measures(), ground.lines, **a, **b,
                                            parameters.at("angle"));
   if (!path) return tl::unexpected<Error>(path.error());
   ground.change(add_path(ground.mesh, ground.lines, *path, Origin::merged));
@@ -205,7 +205,7 @@ Result<Outcome> draw(Ground& ground, const json& parameters, Round round) {
                         std::to_string(before) + " points are no longer in the working mesh.";
   }
   const Result<Path> path =
-      path_through(ground.mesh, ground.curvatures, points, parameters.at("angle"));
+      path_through(ground.mesh, ground.measures(), points, parameters.at("angle"));
   if (!path) return tl::unexpected<Error>(path.error());
   ground.change(add_path(ground.mesh, ground.lines, *path, Origin::drawn));
   return outcome;
@@ -248,7 +248,7 @@ Result<Outcome> reroute(Ground& ground, const json& parameters, Round round) {
   // Not back along the stretch that it leaves.
   const auto is_left = [&](VertexId v) { return v != via && std::find(a + 1, b, v) != b; };
   const Result<Path> way = path_through(
-      ground.mesh, ground.curvatures, {from, via, to}, parameters.at("angle"), [&](EdgeId e) {
+      ground.mesh, ground.measures(), {from, via, to}, parameters.at("angle"), [&](EdgeId e) {
         return !is_left(ground.mesh.edge(e)[0]) && !is_left(ground.mesh.edge(e)[1]);
       });
   if (!way) return tl::unexpected<Error>(way.error());
@@ -276,7 +276,11 @@ Result<json> resolve_recompute(const Document& document, const json& given) {
 }
 
 Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
-  const SharpLineOptions options = line_options_of(parameters);
+  SharpLineOptions options = line_options_of(parameters);
+  if (ground.evidence) {
+    options.method = LineMethod::normal_jump;
+    options.bridge_gap = default_bridge_gap(ground.mesh, options.method);
+  }
   Region region;
   if (parameters.contains("region")) {
     region = region_of(parameters.at("region"));
@@ -288,7 +292,8 @@ Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
   }
   const auto vertices = vertices_of(ground.mesh, region);
   if (vertices.empty()) return fail("No vertex of the region is in the working mesh.");
-  ground.change(recompute_region(ground.mesh, ground.curvatures, ground.lines, vertices, options));
+  ground.change(recompute_region(ground.mesh, ground.measures(), ground.evidence.get(),
+                                 ground.lines, vertices, options));
   return Outcome{};
 }
 

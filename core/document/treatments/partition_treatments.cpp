@@ -361,7 +361,7 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
     });
   };
   const Result<Path> path =
-      path_through(ground.mesh, ground.curvatures, path_of(parameters.at("vertices")),
+      path_through(ground.mesh, ground.measures(), path_of(parameters.at("vertices")),
                    parameters.at("angle"), is_inside);
   if (!path) return tl::unexpected<Error>(path.error());
   const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), **partition, *path);

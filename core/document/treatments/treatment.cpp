@@ -47,7 +47,7 @@ std::vector<std::uint32_t> read_ids(ParameterReader& reader, const std::string& 
 }  // namespace
 
 void Ground::change(const LineChanges& changes) {
-  SharpLines edited = edit_lines(mesh, curvatures, lines, changes, next_id);
+  SharpLines edited = edit_lines(mesh, measures(), lines, changes, next_id);
   std::vector<EdgeId> touched;
   for (const auto& [e, origin] : changes.edges) touched.push_back(e);
   boundaries = update_boundaries(mesh, curvatures, boundaries, {lines, partitions},
@@ -71,6 +71,7 @@ Partition Ground::new_partition(const CurvatureInterval& interval) {
 }
 
 Ground ground_of(const Document& document) {
+  const Result<LineEvidencePtr> evidence = line_evidence_of(document);
   const Criterion criterion = document.criterion();
   Ground ground{*document.mesh,
                 *document.curvatures,
@@ -79,7 +80,8 @@ Ground ground_of(const Document& document) {
                 document.partitions,
                 *document.boundaries,
                 document.next_id,
-                criterion};
+                criterion,
+                *evidence};
   return ground;
 }
 
@@ -140,12 +142,19 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
                           const Context& context) {
   const Mesh& mesh = *document.mesh;
   const Curvatures& curvatures = *document.curvatures;
+  if (!document.evidence)
+    document.evidence =
+        std::make_shared<const SharedLineEvidence>(document.mesh, document.curvatures);
+  const Result<LineEvidencePtr> evidence = line_evidence_of(document, context.part(0.0, 0.9));
+  if (!evidence) return tl::unexpected<Error>(evidence.error());
+  const Curvatures& measures = *evidence ? *(*evidence)->measures : curvatures;
   std::vector<Origin> edges(mesh.edge_count(), Origin::none);
   bool switched_on = true;
   if (parameters) {
     switched_on = parameters->at("corrections");
     Result<std::vector<Origin>> found =
-        find_sharp_edges(mesh, curvatures, line_options_of(*parameters), context);
+        find_sharp_edges(mesh, curvatures, evidence->get(), line_options_of(*parameters),
+                         context.part(0.9, 1.0));
     if (!found) return tl::unexpected<Error>(found.error());
     edges = std::move(*found);
   }
@@ -161,7 +170,7 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
   SharpLines previous = document.lines;
   if (corrected) {
     // Ids count from 1 here: which lines are which is only decided once all is done.
-    Ground ground{mesh, curvatures, curvatures.kabs, {}, {}, {}};
+    Ground ground{mesh, curvatures, curvatures.kabs, {}, {}, {}, 1, Criterion::kabs, *evidence};
     SharpLines locked;
     for (const LinePtr& line : document.lines.lines)
       if (line->locked) {
@@ -169,7 +178,7 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
         copy->id = ground.next_id++;
         locked.lines.push_back(std::move(copy));
       }
-    ground.lines = relink_lines(mesh, curvatures, edges, locked, ground.next_id);
+    ground.lines = relink_lines(mesh, measures, edges, locked, ground.next_id);
     ground.boundaries = derive_boundaries(mesh, curvatures, ground.lines, {});
     document.corrections = correct(document.corrections, ground, Round::after_lines, switched_on);
     for (EdgeId e = 0; e < edges.size(); ++e) edges[e] = ground.lines.edges[e];
@@ -177,7 +186,7 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
   } else {
     previous.cuts.clear();
   }
-  document.lines = relink_lines(mesh, curvatures, edges, previous, document.next_id);
+  document.lines = relink_lines(mesh, measures, edges, previous, document.next_id);
   return {};
 }
 
@@ -219,8 +228,10 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
             ->belongs(c->operation.parameters, Round::after_partitions);
       });
   if (corrected) {
-    Ground ground{mesh, *document.curvatures, values, document.lines, {}, {}};
-    ground.criterion = options.criterion;
+    const Result<LineEvidencePtr> evidence = line_evidence_of(document, context);
+    if (!evidence) return tl::unexpected<Error>(evidence.error());
+    Ground ground{mesh, *document.curvatures, values,           document.lines, {}, {},
+                  1,    options.criterion,    *evidence};
     ground.partitions = number_partitions(mesh, *found, {}, ground.next_id);
     ground.boundaries =
         derive_boundaries(mesh, *document.curvatures, ground.lines, ground.partitions);
@@ -243,6 +254,8 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
 SharpLineOptions line_options_of(const nlohmann::json& parameters) {
   SharpLineOptions options;
   const std::string convexity = parameters.value("convexity", "any");
+  options.method = parameters.value("method", "walk") == "walk" ? LineMethod::walk
+                                                                  : LineMethod::normal_jump;
   options.angle = parameters.value("angle", options.angle);
   options.max_angle = parameters.value("max_angle", options.max_angle);
   options.convexity = convexity == "convex"    ? Convexity::convex

@@ -17,14 +17,17 @@ namespace arris {
 /// follows the changes.
 struct Ground {
   const Mesh& mesh;
-  const Curvatures& curvatures;       ///< Of the mesh: lines are found by these.
+  const Curvatures& curvatures;       ///< Of the mesh: boundaries are told by these.
   const std::vector<double>& values;  ///< The criterion: partitions are found by these.
   SharpLines lines;
   Partitions partitions;
   Boundaries boundaries;
   std::uint32_t next_id = 1;
   Criterion criterion = Criterion::kabs;
+  LineEvidencePtr evidence;  ///< By which lines are found; null: the curvatures, by the walk.
 
+  /// How sharp edges and vertices are, by the method of the lines.
+  const Curvatures& measures() const { return evidence ? *evidence->measures : curvatures; }
   PartitionGround partition_ground() const { return {mesh, values, lines, partitions}; }
   void change(const LineChanges& changes);
   void change(const FaceLabels& labels, const std::vector<Partition>& fresh = {});

@@ -1,0 +1,214 @@
+#include "core/sharp_lines/candidate_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <unordered_map>
+
+namespace arris {
+
+namespace {
+
+bool may_be_line(const BorderPlace& place, const LineChoiceOptions& options) {
+  return std::abs(place.value) <= options.max_angle &&
+         (place.turn >= 0.0F ? options.convex : options.concave);
+}
+
+}  // namespace
+
+CandidateGraph::CandidateGraph(const Mesh& mesh, double unit, std::vector<BorderEdge> edges)
+    : edges_(std::move(edges)) {
+  std::vector<VertexId> vertices;
+  for (const BorderEdge& edge : edges_)
+    for (const VertexId v : mesh.edge(edge.edge)) vertices.push_back(v);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto number = [&](VertexId v) {
+    return static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                                      vertices.begin());
+  };
+  starts_.assign(vertices.size() + 1, 0);
+  for (const BorderEdge& edge : edges_) {
+    const EdgeVertices& ends = mesh.edge(edge.edge);
+    ends_.push_back({number(ends[0]), number(ends[1])});
+    length_.push_back(static_cast<float>(mesh.edge_length(edge.edge) / unit));
+    for (const std::uint32_t v : ends_.back()) ++starts_[v + 1];
+  }
+  for (std::size_t v = 0; v < vertices.size(); ++v) starts_[v + 1] += starts_[v];
+  halves_.resize(2 * edges_.size());
+  std::vector<std::uint32_t> place(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t e = 0; e < edges_.size(); ++e)
+    for (std::size_t k = 0; k < 2; ++k) halves_[place[ends_[e][k]]++] = {e, ends_[e][1 - k]};
+}
+
+const BorderEdge* CandidateGraph::find(EdgeId e) const {
+  const auto found = std::lower_bound(edges_.begin(), edges_.end(), e,
+                                      [](const BorderEdge& edge, EdgeId x) { return edge.edge < x; });
+  return found != edges_.end() && found->edge == e ? &*found : nullptr;
+}
+
+std::size_t CandidateGraph::bytes() const {
+  return edges_.size() * (sizeof(BorderEdge) + sizeof(float) + sizeof ends_[0] + 2 * sizeof(Half)) +
+         starts_.size() * sizeof starts_[0];
+}
+
+std::size_t CandidateGraph::degree(std::uint32_t v,
+                                   const std::vector<std::uint8_t>& chosen) const {
+  std::size_t count = 0;
+  for (const Half& half : around(v)) count += chosen[half.edge];
+  return count;
+}
+
+std::vector<EdgeId> CandidateGraph::choose(const LineChoiceOptions& options) const {
+  if (edges_.empty()) return {};
+  std::vector<std::uint8_t> chosen(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    chosen[e] = edges_[e].height > options.angle && may_be_line(edges_[e].place, options);
+  if (options.least_slit > 0.0F) add_slits(options, chosen);
+  if (options.gap > 0.0F) close_gaps(options.gap, chosen);
+  cut_spurs(options.spur, chosen);
+  drop_short(options.least_group, chosen);
+  std::vector<EdgeId> result;
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if (chosen[e]) result.push_back(edges_[e].edge);
+  return result;
+}
+
+void CandidateGraph::add_slits(const LineChoiceOptions& options,
+                               std::vector<std::uint8_t>& chosen) const {
+  constexpr float clear_ratio = 0.65F;  // of the jump to the turn: nothing like a fillet
+  // Connected stretches of what is as sharp as a line without parting two regions.
+  std::vector<std::uint8_t> seen(edges_.size(), 0);
+  std::vector<std::uint32_t> group;
+  for (std::uint32_t start = 0; start < edges_.size(); ++start) {
+    const auto is_slit = [&](std::uint32_t e) {
+      const BorderPlace& place = edges_[e].place;
+      return !chosen[e] && !seen[e] && place.value >= options.angle &&
+             may_be_line(place, options) && std::abs(place.jump) >= clear_ratio * std::abs(place.turn);
+    };
+    if (!is_slit(start)) continue;
+    group.assign(1, start);
+    seen[start] = 1;
+    float length = 0.0F;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      length += length_[group[k]];
+      for (const std::uint32_t v : ends_[group[k]])
+        for (const Half& half : around(v))
+          if (is_slit(half.edge)) {
+            seen[half.edge] = 1;
+            group.push_back(half.edge);
+          }
+    }
+    if (length >= options.least_slit)
+      for (const std::uint32_t e : group) seen[e] = 2;
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if (seen[e] == 2) chosen[e] = 1;
+}
+
+void CandidateGraph::close_gaps(float most, std::vector<std::uint8_t>& chosen) const {
+  struct Reached {
+    float length;
+    std::uint32_t vertex;
+    bool operator<(const Reached& other) const {
+      return length != other.length ? length > other.length : vertex > other.vertex;
+    }
+  };
+  std::unordered_map<std::uint32_t, float> own;  // vertices near along the line itself
+  std::unordered_map<std::uint32_t, std::pair<float, Half>> reached;
+  std::priority_queue<Reached> queue;
+  for (std::uint32_t end = 0; end + 1 < starts_.size(); ++end) {
+    if (degree(end, chosen) != 1) continue;
+    own.clear();
+    queue.push({0.0F, end});
+    while (!queue.empty()) {
+      const auto [length, v] = queue.top();
+      queue.pop();
+      if (!own.emplace(v, length).second || length > 2.0F * most) continue;
+      for (const Half& half : around(v))
+        if (chosen[half.edge]) queue.push({length + length_[half.edge], half.to});
+    }
+    reached.clear();
+    reached[end] = {0.0F, {}};
+    queue.push({0.0F, end});
+    std::uint32_t hit = no_id;
+    while (!queue.empty()) {
+      const auto [length, v] = queue.top();
+      queue.pop();
+      if (hit != no_id || length > reached[v].first) continue;
+      if (v != end && degree(v, chosen) > 0) {
+        if (!own.contains(v)) hit = v;
+        continue;
+      }
+      for (const Half& half : around(v)) {
+        const float further = length + length_[half.edge];
+        if (chosen[half.edge] || further > most) continue;
+        const auto [it, fresh] = reached.try_emplace(half.to, further, Half{half.edge, v});
+        if (!fresh) {
+          if (further >= it->second.first) continue;
+          it->second = {further, Half{half.edge, v}};
+        }
+        queue.push({further, half.to});
+      }
+    }
+    for (std::uint32_t v = hit; v != no_id && v != end; v = reached[v].second.to)
+      chosen[reached[v].second.edge] = 1;
+  }
+}
+
+void CandidateGraph::cut_spurs(float most, std::vector<std::uint8_t>& chosen) const {
+  constexpr int rounds = 3;  // a spur may have spurs
+  std::vector<std::uint32_t> branch;
+  for (int round = 0; round < rounds; ++round) {
+    bool any = false;
+    for (std::uint32_t end = 0; end + 1 < starts_.size(); ++end) {
+      if (degree(end, chosen) != 1) continue;
+      branch.clear();
+      float length = 0.0F;
+      std::uint32_t v = end, last = no_id;
+      do {
+        std::uint32_t next = no_id;
+        for (const Half& half : around(v))
+          if (chosen[half.edge] && half.edge != last) {
+            next = half.edge;
+            v = half.to;
+            break;
+          }
+        if (next == no_id) break;
+        last = next;
+        branch.push_back(next);
+        length += length_[next];
+      } while (length <= most && degree(v, chosen) == 2);
+      if (length > most || degree(v, chosen) < 3) continue;
+      for (const std::uint32_t e : branch) chosen[e] = 0;
+      any = true;
+    }
+    if (!any) break;
+  }
+}
+
+void CandidateGraph::drop_short(float least, std::vector<std::uint8_t>& chosen) const {
+  std::vector<std::uint8_t> seen(edges_.size(), 0);
+  std::vector<std::uint32_t> group;
+  for (std::uint32_t start = 0; start < edges_.size(); ++start) {
+    if (!chosen[start] || seen[start]) continue;
+    group.assign(1, start);
+    seen[start] = 1;
+    float length = 0.0F;
+    bool exact = false;  // no noise makes these, however short they are
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      length += length_[group[k]];
+      exact = exact || edges_[group[k]].exact;
+      for (const std::uint32_t v : ends_[group[k]])
+        for (const Half& half : around(v))
+          if (chosen[half.edge] && !seen[half.edge]) {
+            seen[half.edge] = 1;
+            group.push_back(half.edge);
+          }
+    }
+    if (length < least && !exact)
+      for (const std::uint32_t e : group) chosen[e] = 0;
+  }
+}
+
+}  // namespace arris

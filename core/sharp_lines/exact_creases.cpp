@@ -1,0 +1,134 @@
+#include "core/sharp_lines/exact_creases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/parallel.h"
+#include "core/mesh/chains.h"
+
+namespace arris {
+
+namespace {
+
+constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
+
+/// Whether about an edge there are enough edges without any angle.
+bool is_clean(const Mesh& mesh, const std::vector<float>& beta, EdgeId e,
+              const ExactCreaseOptions& options) {
+  int flat = 0, all = 0;
+  for (const VertexId v : mesh.edge(e))
+    mesh.for_ring(v, [&](HalfEdgeId h) {
+      const EdgeId other = h >> 1;
+      if (other == e || mesh.is_border_edge(other)) return;
+      ++all;
+      flat += std::abs(beta[other]) * degrees <= options.flat;
+    });
+  // Two faces alone have nothing about them that could be noisy.
+  return static_cast<float>(flat) >= options.flat_share * static_cast<float>(all);
+}
+
+/// Whether the windows about an edge are fit to judge it: its faces are about as large as most.
+bool has_windows(const Mesh& mesh, const FaceTable& table, EdgeId e) {
+  constexpr float least = 0.4F, most = 2.5F;
+  for (const FaceId f : mesh.edge_faces(e))
+    for (const EdgeId side : table.sides[f]) {
+      const double length = mesh.edge_length(side) / table.unit;
+      if (length < least || length > most) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<float>& beta,
+                                           const FaceTable& table, const NormalJump& jump,
+                                           const ExactCreaseOptions& options) {
+  std::vector<std::uint8_t> is_crease(mesh.edge_count(), 0);
+  parallel_for(is_crease.size(), [&](std::size_t i) {
+    const EdgeId e = static_cast<EdgeId>(i);
+    is_crease[i] = std::abs(beta[i]) * degrees >= options.least_angle && !mesh.is_border_edge(e) &&
+                   is_clean(mesh, beta, e, options);
+  });
+  std::vector<EdgeId> edges;
+  for (EdgeId e = 0; e < is_crease.size(); ++e)
+    if (is_crease[e]) edges.push_back(e);
+  // Whole chains are judged, since a window at a corner says little.
+  const std::vector<Chain> chains = link_chains(
+      mesh, edges, [&](EdgeId e) { return is_crease[e] != 0; },
+      [](HalfEdgeId, HalfEdgeId) { return true; });
+  for (const Chain& chain : chains) {
+    double judged = 0.0, agreed = 0.0, length = 0.0;
+    for (const HalfEdgeId h : chain.half_edges) {
+      const EdgeId e = h >> 1;
+      const double own = mesh.edge_length(e) / table.unit;
+      length += own;
+      if (!has_windows(mesh, table, e)) continue;
+      judged += own;
+      const float angle = std::abs(beta[e]) * degrees;
+      if (jump.at_edge[e] <= options.most_jump * angle &&
+          jump.at_edge[e] >= options.least_jump * angle)
+        agreed += own;
+    }
+    if (judged > 0.2 * length && agreed < 0.5 * judged)
+      for (const HalfEdgeId h : chain.half_edges) is_crease[h >> 1] = 0;
+  }
+  // On a noisy scan an edge may look clean by chance, but not several in a row.
+  std::vector<BorderEdge> result;
+  std::vector<EdgeId> group;
+  for (const EdgeId start : edges) {
+    if (is_crease[start] != 1) continue;
+    group.assign(1, start);
+    is_crease[start] = 2;
+    double length = 0.0;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      length += mesh.edge_length(group[k]) / table.unit;
+      for (const VertexId v : mesh.edge(group[k]))
+        mesh.for_ring(v, [&](HalfEdgeId h) {
+          if (is_crease[h >> 1] != 1) return;
+          is_crease[h >> 1] = 2;
+          group.push_back(h >> 1);
+        });
+    }
+    if (length < options.least_length) continue;
+    for (const EdgeId e : group) {
+      const float angle = beta[e] * degrees;
+      result.push_back({e, std::abs(angle), {angle, angle, std::abs(angle)}, true});
+    }
+  }
+  std::sort(result.begin(), result.end(),
+            [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; });
+  return result;
+}
+
+std::vector<BorderEdge> merge_creases(const Mesh& mesh, const std::vector<BorderEdge>& borders,
+                                      std::vector<BorderEdge> creases) {
+  if (creases.empty()) return borders;
+  std::vector<std::uint8_t> near(mesh.vertex_count(), 0);
+  std::vector<VertexId> front;
+  for (const BorderEdge& crease : creases)
+    for (const VertexId v : mesh.edge(crease.edge))
+      if (!near[v]) {
+        near[v] = 1;
+        front.push_back(v);
+      }
+  constexpr int rings = 2;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t count = front.size();
+    for (std::size_t k = 0; k < count; ++k)
+      mesh.for_ring(front[k], [&](HalfEdgeId h) {
+        if (near[mesh.to(h)]) return;
+        near[mesh.to(h)] = 1;
+        front.push_back(mesh.to(h));
+      });
+  }
+  for (const BorderEdge& border : borders) {
+    const EdgeVertices& ends = mesh.edge(border.edge);
+    if (!near[ends[0]] && !near[ends[1]]) creases.push_back(border);
+  }
+  std::sort(creases.begin(), creases.end(),
+            [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; });
+  return creases;
+}
+
+}  // namespace arris

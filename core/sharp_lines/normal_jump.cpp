@@ -1,0 +1,198 @@
+#include "core/sharp_lines/normal_jump.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/base/parallel.h"
+
+namespace arris {
+
+namespace {
+
+using Eigen::Vector3f;
+constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
+
+/// exp(-x) for x >= 0 by table, 0 from 12 on. The same on every machine, and fast.
+class FallingExponential {
+ public:
+  FallingExponential() {
+    for (std::size_t k = 0; k < table_.size(); ++k)
+      table_[k] = static_cast<float>(std::exp(-(static_cast<double>(k) + 0.5) / steps));
+  }
+  float operator()(float x) const {
+    const auto k = static_cast<std::size_t>(x * steps);
+    return k < table_.size() ? table_[k] : 0.0F;
+  }
+
+ private:
+  static constexpr float steps = 256.0F;
+  std::array<float, 12 * 256> table_;
+};
+
+/// angle / sin(angle) for 1 - cos(angle) = z, z in [0, 0.8], to 0.1 %.
+float angle_over_sine(float z) {
+  return 1.0F +
+         z * (1.0F / 3 +
+              z * (2.0F / 15 +
+                   z * (2.0F / 35 +
+                        z * (8.0F / 315 + z * (8.0F / 693 + z * (16.0F / 3003 + z * 16.0F / 6435))))));
+}
+
+/// The faces of a window, copied side by side.
+struct Sample {
+  Vector3f from_place, normal;
+  float area;
+};
+
+struct Measured {
+  float jump = 0.0F;  // degrees, convex positive
+  Vector3f along = Vector3f::Zero(), normal = Vector3f::Zero();
+};
+
+Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& options,
+                 const FallingExponential& falling) {
+  Measured result;
+  // The mean normal, and the tensor of how normals change over the tangent plane, both weighted
+  // towards the middle. The tensor is about the mean, so it is summed up with its moments.
+  Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
+  float weight = 0.0F;
+  Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
+  for (const Sample& s : samples) {
+    const float w = s.area * falling(0.5F * s.from_place.squaredNorm());
+    const Vector3f wn = w * s.normal;
+    sum += wn;
+    weight += w;
+    moment += w * s.from_place;
+    change.noalias() += wn * s.from_place.transpose();
+  }
+  const float length = sum.norm();
+  if (!(length > 1e-6F * weight)) return result;
+  const Vector3f n = sum / length;
+  change.noalias() -= (sum / weight) * moment.transpose();
+  const Vector3f x = (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
+  const Vector3f y = n.cross(x);
+  const Vector3f change_x = change * x, change_y = change * y;
+  const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),
+                                        change_x.squaredNorm() - change_y.squaredNorm());
+  const Vector3f across = std::cos(angle) * x + std::sin(angle) * y;
+  const Vector3f along = n.cross(across);
+  result.along = along;
+  result.normal = n;
+
+  const float least_cosine = std::cos(options.most_turn / degrees);
+  const float near2 = options.near * options.near, far2 = options.far * options.far;
+  const float across2 = 1.0F / (options.across * options.across);
+  const float along2 = 1.0F / (options.along * options.along);
+  // Sums for each side: weight, distance, its square, and the rotation, plain and by distance.
+  std::array<float, 2> w0{}, w1{}, w2{};
+  std::array<Eigen::Vector2f, 2> a0, a1;
+  a0.fill(Eigen::Vector2f::Zero());
+  a1.fill(Eigen::Vector2f::Zero());
+  for (const Sample& s : samples) {
+    const float cosine = s.normal.dot(n);
+    if (cosine < least_cosine) continue;
+    const float t = s.from_place.dot(across), height = s.from_place.dot(n);
+    const float t2 = t * t + height * height;
+    if (t2 < near2 || t2 > far2) continue;
+    const float u = s.from_place.dot(along);
+    const float w = s.area * falling(t2 * across2 + u * u * along2);
+    const float distance = std::sqrt(t2);
+    const Eigen::Vector2f rotation =
+        angle_over_sine(1.0F - cosine) * Eigen::Vector2f(s.normal.dot(across), s.normal.dot(along));
+    const std::size_t side = t > 0.0F;
+    w0[side] += w;
+    w1[side] += w * distance;
+    w2[side] += w * t2;
+    a0[side] += w * rotation;
+    a1[side] += w * distance * rotation;
+  }
+  if (!(w0[0] > 0.0F) || !(w0[1] > 0.0F)) return result;
+  std::array<Eigen::Vector2f, 2> mean, at_line;
+  for (std::size_t k = 0; k < 2; ++k) {
+    mean[k] = a0[k] / w0[k];
+    const float distance = w1[k] / w0[k];
+    const float spread = w2[k] - w0[k] * distance * distance + options.ridge * w0[k];
+    at_line[k] = mean[k] - (a1[k] - distance * a0[k]) / spread * distance;
+  }
+  const Eigen::Vector2f plain = mean[1] - mean[0];
+  const float most = plain.norm();
+  if (!(most > 0.0F)) return result;
+  result.jump = std::clamp((at_line[1] - at_line[0]).dot(plain) / most, 0.0F, most) * degrees;
+  if (plain[0] < 0.0F) result.jump = -result.jump;  // the sides lean towards each other
+  return result;
+}
+
+}  // namespace
+
+Result<NormalJump> measure_normal_jump(const Mesh& mesh, const FaceTable& table,
+                                       const std::vector<Vector3f>& normals,
+                                       const NormalJumpOptions& options, const Context& context) {
+  NormalJump result;
+  const std::size_t vertices = mesh.vertex_count();
+  result.at_vertex.assign(vertices, 0.0F);
+  std::vector<Vector3f> direction(vertices, Vector3f::Zero()), normal(vertices, Vector3f::Zero());
+  result.convex.assign(mesh.edge_count(), 0);
+  result.at_edge.assign(mesh.edge_count(), 0.0F);
+  const FallingExponential falling;
+  struct Local {
+    explicit Local(const FaceTable& faces) : window(faces) {}
+    FaceWindow window;
+    std::vector<FaceId> seeds;
+    std::vector<Sample> samples;
+  };
+  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
+  // Share by share, so that progress is told and a stop is seen by one thread, in between.
+  constexpr std::size_t shares = 50;
+  for (std::size_t share = 0; share < shares; ++share) {
+    if (context.cancelled()) return cancelled();
+    context.report(static_cast<double>(share) / shares, "normal jump");
+    const std::size_t first = vertices * share / shares;
+    parallel_for(
+        vertices * (share + 1) / shares - first,
+        [&](std::size_t i) {
+          const VertexId v = static_cast<VertexId>(first + i);
+          Local& local = locals.local();
+          local.seeds.clear();
+          mesh.for_ring(v, [&](HalfEdgeId h) {
+            if (mesh.face(h) != no_id) local.seeds.push_back(mesh.face(h));
+          });
+          if (local.seeds.empty()) return;
+          const Vector3f& place = table.points[v];
+          local.samples.clear();
+          for (const FaceId f : local.window.grow(local.seeds, place, options.reach))
+            local.samples.push_back(
+                {table.faces[f].centre - place, normals[f], table.faces[f].area});
+          const Measured measured = measure(local.samples, options, falling);
+          result.at_vertex[v] = measured.jump;
+          direction[v] = measured.along;
+          normal[v] = measured.normal;
+        },
+        256);
+  }
+  parallel_for(mesh.edge_count(), [&](std::size_t i) {
+    const EdgeId e = static_cast<EdgeId>(i);
+    const auto [left, right] = mesh.edge_faces(e);
+    if (left == no_id || right == no_id) return;
+    float strength = 0.0F, lean = 0.0F;
+    const Vector3f apart = table.faces[right].centre - table.faces[left].centre;
+    for (const VertexId v : mesh.edge(e)) {
+      // The way between the two faces, in the tangent plane: across the line for an edge along it.
+      const Vector3f& n = normal[v];
+      const Vector3f way = apart - n * apart.dot(n);
+      const float length = way.norm();
+      const float slant = length > 0.0F ? std::abs(way.dot(n.cross(direction[v]))) / length : 1.0F;
+      strength +=
+          0.5F * std::abs(result.at_vertex[v]) * std::min(1.0F, slant / options.least_slant);
+      lean += result.at_vertex[v];
+    }
+    result.at_edge[i] = strength;
+    result.convex[i] = lean > 0.0F;
+  });
+  return result;
+}
+
+}  // namespace arris
