@@ -127,19 +127,17 @@ int main(int argc, char** argv) {
   }
 
   std::vector<Method> methods = method_table();
-  if (!names.empty() || !added.empty()) {
-    std::vector<Method> own;
-    for (const std::string& text : added) {
-      Result<Method> method = method_from(text);
-      if (!method) return complain(method.error().message, bad_usage);
-      own.push_back(std::move(*method));
-    }
-    if (!names.empty()) {
-      Result<std::vector<Method>> chosen = chosen_methods(methods, names);
-      if (!chosen) return complain(chosen.error().message, bad_usage);
-      methods = std::move(*chosen);
-    }
-    methods.insert(methods.end(), own.begin(), own.end());
+  for (const std::string& text : added) {
+    Result<Method> method = method_from(text);
+    if (!method) return complain(method.error().message, bad_usage);
+    if (!names.empty() && std::ranges::find(names, method->name) == names.end())
+      names.push_back(method->name);
+    methods.push_back(std::move(*method));
+  }
+  if (!names.empty()) {
+    Result<std::vector<Method>> chosen = chosen_methods(methods, names);
+    if (!chosen) return complain(chosen.error().message, bad_usage);
+    methods = std::move(*chosen);
   }
 
   std::vector<Case> cases;

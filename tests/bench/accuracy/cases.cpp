@@ -1,5 +1,7 @@
 #include "tests/bench/accuracy/cases.h"
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -12,15 +14,40 @@ namespace arris::accuracy {
 
 namespace {
 
-constexpr std::pair<const char*, double> densities[] = {  // mean edge in mm, of parts of 40 mm
-    {"coarse", 2.0},
-    {"medium", 1.25},
-    {"fine", 0.8}};
+struct Sampling {
+  const char* name;
+  double edge;  ///< Mean edge in mm, of parts of 40 mm.
+  int blur;     ///< Rounds of smoothing, as an optic blurs: two round an edge by about one edge.
+};
+constexpr Sampling samplings[] = {
+    {"coarse", 2.0, 0}, {"medium", 1.25, 0}, {"fine", 0.8, 0}, {"blurred", 1.25, 2}};
 constexpr double noises[] = {0.0, 0.05, 0.1, 0.3};  // mean edges
 constexpr double lines_reach = 1.5;                 // mean edges
 /// On a clean tessellation a line must run along the true edge, whatever the length of the edges:
 /// shares of the diagonal.
 constexpr double exact_reach = 1.0 / 500.0;
+
+/// Moves each vertex half way to the mean of its neighbours; the border stays.
+void smooth(testing::Triangles& mesh) {
+  std::map<EdgeVertices, int> faces_of;
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      ++faces_of[{low, high}];
+    }
+  std::vector<Point> sums(mesh.points.size(), Point::Zero());
+  std::vector<double> counts(mesh.points.size(), 0.0);
+  std::vector<char> stays(mesh.points.size(), 0);
+  for (const auto& [edge, faces] : faces_of)
+    for (const int end : {0, 1}) {
+      sums[edge[end]] += mesh.points[edge[1 - end]];
+      counts[edge[end]] += 1.0;
+      if (faces == 1) stays[edge[end]] = 1;
+    }
+  for (VertexId v = 0; v < mesh.points.size(); ++v)
+    if (!stays[v] && counts[v] > 0.0)
+      mesh.points[v] = 0.5 * mesh.points[v] + 0.5 / counts[v] * sums[v];
+}
 
 /// Gaussian noise along the normals; `sigma` in mm.
 std::vector<Point> with_noise(const testing::Triangles& mesh, double sigma, std::uint64_t seed) {
@@ -57,10 +84,12 @@ struct Memo {
   double mean_edge = 0.0;
 };
 
-Result<Part> make_scanned(const Shape& shape, double edge, double noise, const std::string& key,
+Result<Part> make_scanned(const Shape& shape, const Sampling& sampling, double noise,
                           const std::string& name, Memo& memo) {
+  const std::string key = shape.name + "-" + sampling.name;
   if (memo.name != key) {
-    memo.part = shape.make(edge);
+    memo.part = shape.make(sampling.edge);
+    for (int round = 0; round < sampling.blur; ++round) smooth(memo.part.mesh);
     const Result<ScanPtr> clean = scan_of(memo.part.mesh.points, memo.part.mesh.triangles);
     if (!clean) return tl::unexpected<Error>(clean.error());
     memo.mean_edge = mean_inner_edge(*(*clean)->mesh);
@@ -69,7 +98,7 @@ Result<Part> make_scanned(const Shape& shape, double edge, double noise, const s
   Result<Part> part = part_of(memo.part, with_noise(memo.part.mesh, noise * memo.mean_edge,
                                                     hash_bytes(name.data(), name.size())));
   if (!part) return part;
-  part->edge = memo.mean_edge;
+  part->edge = mean_inner_edge(*part->scan->mesh);
   part->tolerance = lines_reach * part->edge;
   return part;
 }
@@ -89,15 +118,15 @@ std::vector<Case> generated_cases() {
   std::vector<Case> cases;
   const auto memo = std::make_shared<Memo>();
   for (const Shape& shape : scanned_shapes())
-    for (const auto& [density, edge] : densities)
+    for (const Sampling& sampling : samplings)
       for (const double noise : noises) {
-        const std::string key = shape.name + "-" + density;
         const std::string level = number_text(noise, 3);
-        const std::string name = key + "-n" + level;
+        const std::string name = shape.name + "-" + sampling.name + "-n" + level;
+        const std::string kind = sampling.blur > 0 ? "generated, blurred" : "generated";
         cases.push_back({name,
-                         {"generated, noise " + level, "generated, " + shape.name},
-                         [shape, edge = edge, noise, key, name, memo] {
-                           return make_scanned(shape, edge, noise, key, name, *memo);
+                         {kind + ", noise " + level, "generated, " + shape.name},
+                         [shape, sampling, noise, name, memo] {
+                           return make_scanned(shape, sampling, noise, name, *memo);
                          }});
       }
   for (const CadMesh& cad : cad_meshes())

@@ -1,11 +1,14 @@
 #include "tests/bench/accuracy/truth_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
