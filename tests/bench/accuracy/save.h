@@ -8,7 +8,8 @@
 namespace arris::accuracy {
 
 /// Writes the part as a truth folder has it: scan.ply, scan_curves.json and, where patches are
-/// known, scan.labels. Errors: the folder or a file cannot be written.
+/// known, scan.labels (of a part made by code the patch stands for the surface, too: score.py then
+/// leaves narrow ones out, which Scorer does not). Errors: the folder or a file cannot be written.
 Result<void> save_part(const std::string& folder, const Part& part);
 
 /// Writes lines.obj and, where partitions were looked for, scan_partitions.ply. Errors: as above.

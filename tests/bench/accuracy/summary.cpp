@@ -123,10 +123,14 @@ Table group_table(const std::vector<Row>& rows) {
   const auto note = [](std::vector<std::string>& names, const std::string& name) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
+  std::size_t levels = 0;
   for (const Row& row : rows) {
-    for (const std::string& group : row.groups) note(groups, group);
+    levels = std::max(levels, row.groups.size());
     note(methods, row.method);
   }
+  for (std::size_t level = 0; level < levels; ++level)
+    for (const Row& row : rows)
+      if (level < row.groups.size()) note(groups, row.groups[level]);
   for (const std::string& group : groups)
     for (const std::string& method : methods) {
       std::vector<const Row*> own;

@@ -20,8 +20,9 @@ struct Row {
 /// A row for each case and method. Columns in which the part tells nothing hold a dash.
 Table case_table(const std::vector<Row>& rows);
 
-/// A row for each group of cases and method, in the order of their first row: means over the cases
-/// that tell (of F1 and corrections for each target the worst, too), counts and seconds as sums.
+/// A row for each group of cases and method, the first groups of all cases first: means over the
+/// cases that tell (of F1 and corrections for each target the worst, too), counts and seconds as
+/// sums.
 Table group_table(const std::vector<Row>& rows);
 
 }  // namespace arris::accuracy

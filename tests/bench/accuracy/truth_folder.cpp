@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/curvature/curvature.h"
+#include "tests/bench/accuracy/kd_tree.h"
 
 namespace arris::accuracy {
 
@@ -64,7 +65,26 @@ Result<void> read_labels(const fs::path& path, const Scan& scan, Truth& truth) {
   return {};
 }
 
-Result<Part> read_truth(const fs::path& scan_path, const fs::path& curves_path) {
+/// On a clean tessellation the exterior angles are exact: a curve along which it does not bend was
+/// stated wrongly (jumps across trimmed blends are), and counts neither way.
+Result<void> check_on_tessellation(const Mesh& mesh, double edge, std::vector<TrueCurve>& curves) {
+  const Result<CurvaturesPtr> curvatures = compute_curvatures(mesh);
+  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  constexpr double least_bend = must_angle / 2.0 * std::numbers::pi / 180.0;
+  std::vector<Point> bends;
+  for (EdgeId e = 0; e < mesh.edge_count(); ++e)
+    if (std::abs((*curvatures)->beta[e]) >= least_bend)
+      bends.push_back((mesh.point(mesh.edge(e)[0]) + mesh.point(mesh.edge(e)[1])) / 2.0);
+  const KdTree tree(std::move(bends));
+  for (TrueCurve& curve : curves) {
+    const auto seen = std::ranges::count_if(
+        curve.points, [&](const Point& p) { return tree.has_within(p, edge); });
+    if (2 * seen < std::ssize(curve.points)) curve.demand = Demand::may;
+  }
+  return {};
+}
+
+Result<Part> read_truth(const fs::path& scan_path, const fs::path& curves_path, bool is_clean) {
   Part part;
   Result<ScanPtr> scan = load_scan(scan_path.string());
   if (!scan) return tl::unexpected<Error>(scan.error());
@@ -78,6 +98,10 @@ Result<Part> read_truth(const fs::path& scan_path, const fs::path& curves_path) 
     return tl::unexpected<Error>(read.error());
   part.edge = mean_inner_edge(*part.scan->mesh);
   part.tolerance = lines_reach * part.edge;
+  if (is_clean)
+    if (const auto checked = check_on_tessellation(*part.scan->mesh, part.edge, part.truth.curves);
+        !checked)
+      return tl::unexpected<Error>(checked.error());
   return part;
 }
 
@@ -136,7 +160,8 @@ void add_truth(const fs::path& folder, std::vector<Case>& cases) {
     const std::string name = path.stem().string();
     std::optional<std::string> of_part = without(name, "_scan");
     std::string group = "scans";
-    if (!of_part) {
+    const bool is_clean = !of_part;
+    if (is_clean) {
       of_part = without(name, "_cad");
       group = "CAD tessellations";
     }
@@ -147,7 +172,9 @@ void add_truth(const fs::path& folder, std::vector<Case>& cases) {
       group = "other kinds of scan";
     }
     if (!fs::exists(curves())) continue;
-    cases.push_back({name, {group}, [path, truth = curves()] { return read_truth(path, truth); }});
+    cases.push_back({name, {group}, [path, truth = curves(), is_clean] {
+                       return read_truth(path, truth, is_clean);
+                     }});
   }
 }
 
