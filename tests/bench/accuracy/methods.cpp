@@ -1,0 +1,168 @@
+#include "tests/bench/accuracy/methods.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#ifdef ARRIS_ACCURACY_VTK
+#include <vtkCellArray.h>
+#include <vtkFeatureEdges.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStripper.h>
+#endif
+
+#include "core/document/document.h"
+#include "core/document/operation.h"
+#include "core/sharp_lines/lines.h"
+
+namespace arris::accuracy {
+
+namespace {
+
+constexpr double dihedral_angle = 30.0;  // degrees; what the peers are usually set to
+
+/// The document as `open` leaves it.
+Result<Document> opened(const ScanPtr& scan) {
+  Document document;
+  document.scan = scan;
+  document.mesh = scan->mesh;
+  const Result<CurvaturesPtr> curvatures = compute_curvatures(*scan->mesh);
+  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  document.curvatures = *curvatures;
+  document.opened = {document.mesh, document.curvatures, nullptr};
+  document.boundaries = std::make_shared<const Boundaries>();
+  return document;
+}
+
+Polyline polyline(const Mesh& mesh, const std::vector<VertexId>& path) {
+  Polyline line;
+  line.reserve(path.size());
+  for (const VertexId v : path) line.push_back(mesh.point(v));
+  return line;
+}
+
+Result<Found> run_operations(const std::vector<Operation>& operations, const ScanPtr& scan) {
+  Result<Document> document = opened(scan);
+  for (const Operation& operation : operations) {
+    if (!document) return tl::unexpected<Error>(document.error());
+    document = apply(*document, operation);
+  }
+  if (!document) return tl::unexpected<Error>(document.error());
+  Found found;
+  for (const LinePtr& line : document->lines.lines)
+    found.lines.push_back(polyline(*document->mesh, line->vertices));
+  if (document->find_partitions) found.labels = labels_on_scan(*document);
+  return found;
+}
+
+/// All edges of an exterior angle above the usual one, linked into lines.
+Result<Found> dihedral_lines(const ScanPtr& scan) {
+  const Mesh& mesh = *scan->mesh;
+  const Result<CurvaturesPtr> curvatures = compute_curvatures(mesh);
+  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  std::vector<Origin> edges(mesh.edge_count(), Origin::none);
+  for (EdgeId e = 0; e < edges.size(); ++e)
+    if (std::abs((*curvatures)->beta[e]) > dihedral_angle * std::numbers::pi / 180.0)
+      edges[e] = Origin::found;
+  Found found;
+  for (const Line& line : derive_lines(mesh, **curvatures, edges))
+    found.lines.push_back(polyline(mesh, line.vertices));
+  return found;
+}
+
+#ifdef ARRIS_ACCURACY_VTK
+/// vtkFeatureEdges, its edges joined by vtkStripper.
+Result<Found> vtk_feature_edges(const ScanPtr& scan) {
+  const Mesh& mesh = *scan->mesh;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Point& p : mesh.points()) points->InsertNextPoint(p.data());
+  vtkNew<vtkCellArray> faces;
+  for (const Triangle& t : mesh.triangles()) faces->InsertNextCell({t[0], t[1], t[2]});
+  vtkNew<vtkPolyData> surface;
+  surface->SetPoints(points);
+  surface->SetPolys(faces);
+  vtkNew<vtkFeatureEdges> features;
+  features->SetInputData(surface);
+  features->SetFeatureAngle(dihedral_angle);
+  features->FeatureEdgesOn();
+  features->BoundaryEdgesOff();
+  features->NonManifoldEdgesOff();
+  features->ManifoldEdgesOff();
+  features->ColoringOff();
+  vtkNew<vtkStripper> stripper;
+  stripper->SetInputConnection(features->GetOutputPort());
+  stripper->SetMaximumLength(static_cast<int>(mesh.edge_count()) + 1);
+  stripper->Update();
+
+  Found found;
+  vtkPolyData* output = stripper->GetOutput();
+  vtkCellArray* lines = output->GetLines();
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  for (lines->InitTraversal(); lines->GetNextCell(count, ids);) {
+    Polyline line;
+    for (vtkIdType k = 0; k < count; ++k) {
+      Point p;
+      output->GetPoint(ids[k], p.data());
+      line.push_back(p);
+    }
+    found.lines.push_back(std::move(line));
+  }
+  return found;
+}
+#endif
+
+Method timed(std::string name, std::function<Result<Found>(const ScanPtr&)> run) {
+  return {std::move(name), [run = std::move(run)](const ScanPtr& scan) {
+            const auto start = std::chrono::steady_clock::now();
+            Result<Found> found = run(scan);
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+            if (found) found->seconds = spent.count();
+            return found;
+          }};
+}
+
+}  // namespace
+
+Result<Method> operations_method(const std::string& name, std::string_view operations) {
+  const nlohmann::json list = nlohmann::json::parse(operations, nullptr, false);
+  if (!list.is_array()) return fail("Method " + name + ": not a JSON array of operations.");
+  std::vector<Operation> parsed;
+  for (const nlohmann::json& item : list) {
+    Result<Operation> operation = Operation::from_json(item);
+    if (!operation) return fail("Method " + name + ": " + operation.error().message);
+    parsed.push_back(std::move(*operation));
+  }
+  return timed(name, [parsed = std::move(parsed)](const ScanPtr& scan) {
+    return run_operations(parsed, scan);
+  });
+}
+
+std::vector<Method> method_table() {
+  constexpr std::pair<const char*, const char*> flows[] = {
+      // As arris-cli segment and the window's F5.
+      {"default", R"([{"operation": "simplify"}, {"operation": "find_sharp_lines"},
+                      {"operation": "equilateralize"}, {"operation": "find_partitions"}])"},
+      {"no-prepare", R"([{"operation": "find_sharp_lines"}, {"operation": "find_partitions"}])"},
+  };
+  std::vector<Method> methods;
+  for (const auto& [name, operations] : flows) {
+    Result<Method> method = operations_method(name, operations);
+    if (!method) throw std::logic_error(method.error().message);
+    methods.push_back(std::move(*method));
+  }
+  methods.push_back(timed("dihedral 30", dihedral_lines));
+#ifdef ARRIS_ACCURACY_VTK
+  methods.push_back(timed("vtkFeatureEdges", vtk_feature_edges));
+#endif
+  return methods;
+}
+
+}  // namespace arris::accuracy

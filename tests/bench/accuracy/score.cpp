@@ -1,0 +1,283 @@
+#include "tests/bench/accuracy/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/base/parallel.h"
+
+namespace arris::accuracy {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+void add_samples(const Polyline& line, double step, LengthSamples& samples) {
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point along = line[i + 1] - line[i];
+    const double length = along.norm();
+    const double pieces = std::max(1.0, std::ceil(length / step));
+    for (double k = 0.0; k < pieces; ++k) {
+      samples.points.push_back(line[i] + along * ((k + 0.5) / pieces));
+      samples.lengths.push_back(length / pieces);
+    }
+  }
+}
+
+LengthSamples samples_of(const Truth& truth, Demand demand, double step) {
+  LengthSamples samples;
+  for (const TrueCurve& curve : truth.curves)
+    if (curve.demand == demand) add_samples(curve.points, step, samples);
+  return samples;
+}
+
+/// The value below which a share of 0.95 of them lies, between neighbours by a straight line.
+double percentile_95(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double place = 0.95 * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+/// Centres of the faces on surfaces whose every part lies within `width` of their border: too
+/// narrow for the scan to show.
+std::vector<Point> narrow_centres(const Mesh& mesh, const std::vector<std::uint32_t>& surfaces,
+                                  double width) {
+  std::map<std::uint32_t, std::vector<FaceId>> faces_of;
+  for (FaceId f = 0; f < surfaces.size(); ++f) faces_of[surfaces[f]].push_back(f);
+  // A vertex lies on a border of each surface round it where there is more than one.
+  std::vector<char> shared(mesh.vertex_count(), 0);
+  std::vector<std::uint32_t> first(mesh.vertex_count(), no_id);
+  for (FaceId f = 0; f < surfaces.size(); ++f)
+    for (const VertexId v : mesh.triangle(f)) {
+      if (first[v] == no_id) first[v] = f;
+      if (surfaces[first[v]] != surfaces[f]) shared[v] = 1;
+    }
+  std::vector<Point> result;
+  for (const auto& [surface, faces] : faces_of) {
+    std::vector<VertexId> border;
+    std::vector<Point> centres;
+    for (const FaceId f : faces) {
+      const Triangle& t = mesh.triangle(f);
+      for (const VertexId v : t)
+        if (shared[v]) border.push_back(v);
+      centres.push_back((mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])) / 3.0);
+    }
+    if (border.empty()) continue;
+    std::sort(border.begin(), border.end());
+    border.erase(std::unique(border.begin(), border.end()), border.end());
+    std::vector<Point> points;
+    for (const VertexId v : border) points.push_back(mesh.point(v));
+    const KdTree tree(std::move(points));
+    std::vector<double> distances(centres.size());
+    parallel_for(centres.size(),
+                 [&](std::size_t i) { distances[i] = tree.nearest(centres[i]).distance; });
+    if (percentile_95(std::move(distances)) < width)
+      result.insert(result.end(), centres.begin(), centres.end());
+  }
+  return result;
+}
+
+std::vector<Point> narrow_centres(const Part& part) {
+  if (part.truth.surfaces.empty()) return {};
+  return narrow_centres(*part.scan->mesh, part.truth.surfaces, part.tolerance);
+}
+
+std::vector<Point> joined(std::vector<Point> a, const std::vector<Point>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// For each point whether the tree has one within `reach`.
+std::vector<char> near_to(const KdTree& tree, const std::vector<Point>& points, double reach) {
+  std::vector<char> result(points.size(), 0);
+  if (!tree.empty())
+    parallel_for(points.size(),
+                 [&](std::size_t i) { result[i] = tree.has_within(points[i], reach); });
+  return result;
+}
+
+}  // namespace
+
+double Score::corrections_per_target() const {
+  const std::size_t targets = lines.curves + partitions.patches;
+  return static_cast<double>(corrections()) /
+         static_cast<double>(std::max<std::size_t>(targets, 1));
+}
+
+Scorer::Scorer(const Part& part)
+    : part_(part),
+      tolerance_(part.tolerance),
+      edge_(part.edge),
+      mean_edge_(mean_inner_edge(*part.scan->mesh)),
+      due_(samples_of(part.truth, Demand::must, tolerance_ / 4.0)),
+      due_tree_(due_.points),
+      narrow_(narrow_centres(part)),
+      free_(joined(samples_of(part.truth, Demand::may, tolerance_ / 4.0).points, narrow_.points())),
+      shown_(near_to(narrow_, due_.points, tolerance_)) {
+  for (char& is_shown : shown_) is_shown = !is_shown;
+  const Mesh& mesh = *part.scan->mesh;
+  for (const Triangle& t : mesh.triangles())
+    areas_.push_back(
+        0.5 *
+        (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm());
+}
+
+Score Scorer::score(const Found& found) const {
+  return {score_lines(found.lines), score_partitions(found.labels)};
+}
+
+LineScore Scorer::score_lines(const std::vector<Polyline>& lines) const {
+  LineScore score{unknown, unknown, unknown, unknown, lines.size(), unknown, unknown};
+  std::vector<LengthSamples> samples;
+  LengthSamples all;
+  for (const Polyline& line : lines) {
+    LengthSamples own;
+    add_samples(line, tolerance_ / 4.0, own);
+    if (own.points.empty()) continue;
+    all.points.insert(all.points.end(), own.points.begin(), own.points.end());
+    all.lengths.insert(all.lengths.end(), own.lengths.begin(), own.lengths.end());
+    samples.push_back(std::move(own));
+  }
+  if (part_.scoring == Scoring::curves) count_line_corrections(samples, score);
+  if (due_.points.empty()) {
+    score.long_false_lines = 0.0;
+    for (const LengthSamples& own : samples) {
+      double length = 0.0;
+      for (const double piece : own.lengths) length += piece;
+      if (length > 10.0 * mean_edge_) ++score.long_false_lines;
+    }
+    return score;
+  }
+  if (score.curves > 0)
+    score.lines_per_curve = static_cast<double>(lines.size()) / static_cast<double>(score.curves);
+
+  const KdTree found_tree(all.points);
+  const std::vector<char> hit = near_to(found_tree, due_.points, tolerance_);
+  double hit_length = 0.0, due_length = 0.0;
+  for (std::size_t k = 0; k < hit.size(); ++k) {
+    if (hit[k]) hit_length += due_.lengths[k];
+    if (hit[k] || shown_[k]) due_length += due_.lengths[k];
+  }
+  const std::vector<char> right = near_to(due_tree_, all.points, tolerance_);
+  const std::vector<char> free = near_to(free_, all.points, tolerance_);
+  double right_length = 0.0, counted_length = 0.0;
+  for (std::size_t k = 0; k < right.size(); ++k) {
+    if (right[k]) right_length += all.lengths[k];
+    if (right[k] || !free[k]) counted_length += all.lengths[k];
+  }
+  const bool any = !all.points.empty();
+  score.precision = any ? right_length / std::max(counted_length, 1e-12) : 0.0;
+  score.recall = any ? hit_length / std::max(due_length, 1e-12) : 0.0;
+  score.f1 = 2.0 * score.precision * score.recall / std::max(score.precision + score.recall, 1e-9);
+  score.length_ratio = counted_length / due_length;
+  return score;
+}
+
+void Scorer::count_line_corrections(const std::vector<LengthSamples>& samples,
+                                    LineScore& score) const {
+  score.has_corrections = true;
+  std::vector<Point> all;
+  std::vector<std::uint32_t> owners;
+  for (std::uint32_t line = 0; line < samples.size(); ++line) {
+    const LengthSamples& own = samples[line];
+    const std::vector<char> right = near_to(due_tree_, own.points, tolerance_);
+    const std::vector<char> free = near_to(free_, own.points, tolerance_);
+    double right_length = 0.0, counted_length = 0.0;
+    for (std::size_t k = 0; k < own.points.size(); ++k) {
+      if (right[k]) right_length += own.lengths[k];
+      if (right[k] || !free[k]) counted_length += own.lengths[k];
+    }
+    if (right_length < 0.5 * counted_length) ++score.deletes;
+    all.insert(all.end(), own.points.begin(), own.points.end());
+    owners.insert(owners.end(), own.points.size(), line);
+  }
+  const KdTree tree(std::move(all));
+  const double gap = 3.0 * edge_;
+  for (const TrueCurve& curve : part_.truth.curves) {
+    if (curve.demand != Demand::must) continue;
+    LengthSamples own;
+    add_samples(curve.points, edge_ / 3.0, own);
+    if (own.points.empty()) continue;
+    double length = 0.0, visible = 0.0, run = 0.0;
+    std::size_t missing = 0;
+    std::map<std::uint32_t, double> length_by_line;
+    for (std::size_t k = 0; k < own.points.size(); ++k) {
+      const bool seen = narrow_.empty() || !narrow_.has_within(own.points[k], tolerance_);
+      const KdTree::Hit hit = tree.nearest(own.points[k], tolerance_);
+      const bool is_hit = hit.index != no_id;
+      length += own.lengths[k];
+      if (seen || is_hit) visible += own.lengths[k];
+      if (is_hit) length_by_line[owners[hit.index]] += own.lengths[k];
+      if (!is_hit && seen) run += own.lengths[k];
+      if (is_hit || k + 1 == own.points.size()) {
+        missing += run >= gap;
+        run = 0.0;
+      }
+    }
+    score.curves += length >= gap;
+    if (visible < gap) continue;
+    score.adds += missing;
+    const auto pieces = std::count_if(length_by_line.begin(), length_by_line.end(),
+                                      [&](const auto& piece) { return piece.second >= gap; });
+    score.merges += static_cast<std::size_t>(std::max<std::ptrdiff_t>(pieces - 1, 0));
+  }
+}
+
+PartitionScore Scorer::score_partitions(const std::vector<std::uint32_t>& labels) const {
+  PartitionScore score{unknown, unknown};
+  const std::vector<std::uint32_t>& patches = part_.truth.patches;
+  if (labels.empty()) return score;
+  std::map<std::uint32_t, double> partition_areas, patch_areas;
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> shared;  // by patch and partition
+  double total = 0.0, assigned = 0.0;
+  for (FaceId f = 0; f < areas_.size(); ++f) {
+    total += areas_[f];
+    if (labels[f] != 0) assigned += areas_[f];
+    partition_areas[labels[f]] += areas_[f];
+    if (patches.empty()) continue;
+    patch_areas[patches[f]] += areas_[f];
+    shared[patches[f]][labels[f]] += areas_[f];
+  }
+  score.assigned = assigned / total;
+  if (patches.empty()) return score;
+
+  score.has_corrections = true;
+  score.mean_iou = 0.0;
+  const double least = total / 2000.0;
+  std::map<std::uint32_t, std::size_t> covered;  // patches by their main cover
+  for (const auto& [patch, partitions] : shared) {
+    const double area = patch_areas[patch];
+    double best = 0.0, main_area = 0.0, unassigned = 0.0;
+    std::uint32_t main = 0;
+    std::size_t mine = 0;
+    for (const auto& [partition, common] : partitions) {
+      if (partition == 0) {
+        unassigned = common;
+        continue;
+      }
+      const double whole = partition_areas[partition];
+      best = std::max(best, common / (area + whole - common));
+      mine += common > 0.5 * whole && common >= least;
+      if (common > main_area) {
+        main_area = common;
+        main = partition;
+      }
+    }
+    score.mean_iou += best * area / total;
+    if (area < least) continue;
+    ++score.patches;
+    if (unassigned > 0.5 * area) {
+      ++score.restarts;
+      continue;
+    }
+    score.connects += mine > 0 ? mine - 1 : 0;
+    if (main != 0) ++covered[main];
+  }
+  for (const auto& [partition, count] : covered) score.splits += count - 1;
+  return score;
+}
+
+}  // namespace arris::accuracy

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tests/bench/accuracy/kd_tree.h"
+#include "tests/bench/accuracy/part.h"
+
+namespace arris::accuracy {
+
+/// Lines against true curves, by length. NaN: the part does not tell.
+struct LineScore {
+  double precision, recall, f1;
+  double length_ratio;  ///< Found over true; doubled and zigzag lines push it over 1.
+  std::size_t lines = 0;
+  double lines_per_curve;        ///< Found lines for each true curve.
+  double long_false_lines;       ///< Over ten edges long, on a part without true lines.
+  bool has_corrections = false;  ///< Whether the counts that follow mean something.
+  std::size_t adds = 0;     ///< Stretches of three edges and more of a true curve that are missing.
+  std::size_t deletes = 0;  ///< Lines that lie mostly beside every true curve.
+  std::size_t merges = 0;   ///< A true curve found in n pieces takes n - 1.
+  std::size_t curves = 0;   ///< True curves of three edges and more.
+};
+
+/// Partitions against true patches, by area.
+struct PartitionScore {
+  double mean_iou;  ///< Of each true patch with the partition it shares most with. NaN: not known.
+  double assigned;  ///< Share of the area that belongs to a partition. NaN: not looked for.
+  bool has_corrections = false;
+  std::size_t connects = 0;  ///< A patch in n pieces takes n - 1.
+  std::size_t splits = 0;    ///< A partition that is the main cover of n patches takes n - 1.
+  std::size_t restarts = 0;  ///< Patches less than half assigned.
+  std::size_t patches = 0;   ///< True patches of at least 1/2000 of the area.
+};
+
+struct Score {
+  LineScore lines;
+  PartitionScore partitions;
+
+  bool has_corrections() const { return lines.has_corrections || partitions.has_corrections; }
+  std::size_t corrections() const {
+    return lines.adds + lines.deletes + lines.merges + partitions.connects + partitions.splits +
+           partitions.restarts;
+  }
+  /// Corrections for each true curve and patch; on a part with neither, all of them.
+  double corrections_per_target() const;
+};
+
+/// Midpoints of equal pieces of segments, each standing for the length of its piece.
+struct LengthSamples {
+  std::vector<Point> points;
+  std::vector<double> lengths;
+};
+
+/// Scores results on one part. What depends on the part alone is worked out once.
+///
+/// The rules are those of the project's Python scorers (score.py and effort.py), to the last digit:
+/// lines are cut into pieces of a quarter of the tolerance; a piece is right where a piece of a
+/// true curve lies within the tolerance.
+class Scorer {
+ public:
+  explicit Scorer(const Part& part);
+  Score score(const Found& found) const;
+
+ private:
+  LineScore score_lines(const std::vector<Polyline>& lines) const;
+  void count_line_corrections(const std::vector<LengthSamples>& samples, LineScore& score) const;
+  PartitionScore score_partitions(const std::vector<std::uint32_t>& labels) const;
+
+  const Part& part_;
+  double tolerance_, edge_, mean_edge_;
+  LengthSamples due_;  // of the curves that must be found
+  KdTree due_tree_;
+  KdTree narrow_;            // centres of the faces on surfaces that are too narrow to be seen
+  KdTree free_;              // what may be found, and narrow_
+  std::vector<char> shown_;  // per piece of due_: whether the scan can show it
+  std::vector<double> areas_;
+};
+
+}  // namespace arris::accuracy

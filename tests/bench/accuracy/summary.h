@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/bench/accuracy/score.h"
+#include "tests/bench/accuracy/table.h"
+
+namespace arris::accuracy {
+
+/// What one method reached on one case.
+struct Row {
+  std::string case_name;
+  std::vector<std::string> groups;
+  std::string method;
+  Score score;
+  double seconds;
+};
+
+/// A row for each case and method. Columns in which the part tells nothing hold a dash.
+Table case_table(const std::vector<Row>& rows);
+
+/// A row for each group of cases and method, the first groups of all cases first: means over the
+/// cases that tell (of F1 and corrections for each target the worst, too), counts and seconds as
+/// sums.
+Table group_table(const std::vector<Row>& rows);
+
+}  // namespace arris::accuracy
