@@ -1,7 +1,5 @@
 #include "core/sharp_lines/sharp_lines.h"
 
-#include <algorithm>
-
 #include "core/base/number_text.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
@@ -15,13 +13,13 @@ Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::j
   // Defaults come from the scan: a simplified mesh has sharp angles everywhere and long edges.
   const Stage& base = document.opened;
   const Mesh& mesh = *base.mesh;
-  const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
+  const double longest = 1000.0 * mesh.diagonal();
   const SharpLineOptions defaults;
   ParameterReader reader("find_sharp_lines", given);
   reader.real("angle", default_sharp_angle(mesh, *base.curvatures), 0.1, 179.9);
   read_bounds(reader);
   reader.whole("candidates", defaults.candidates, 1, 32);
-  reader.real("min_length", rounded(default_min_length(mesh), 2), 0.0, longest);
+  reader.real("min_length", default_min_length(mesh), 0.0, longest);
   reader.whole("parallel_distance", defaults.parallel_distance, 0, 4);
   reader.real("bridge_gap", defaults.bridge_gap, 0.0, longest);
   // Corrections made by hand are done again on what is found.
