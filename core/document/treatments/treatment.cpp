@@ -185,6 +185,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
                                const Context& context) {
   const Mesh& mesh = *document.mesh;
   PartitionOptions options;
+  options.bare_areas = true;
   bool switched_on = true;
   if (parameters) {
     options.criterion = parameters->at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
