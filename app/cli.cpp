@@ -247,8 +247,7 @@ int simplify_scan(const std::string& scan, const std::string& output,
     return complain(written.error());
   std::cout << document.opened.mesh->vertex_count() << " -> " << left << " vertices, all within "
             << number_text(document.simplify->parameters["error_zone"].get<double>(), 3)
-            << " of the scan, written to " << output
-            << "\n";
+            << " of the scan, written to " << output << "\n";
   return 0;
 }
 
