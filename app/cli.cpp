@@ -246,8 +246,8 @@ int simplify_scan(const std::string& scan, const std::string& output,
   if (const auto written = write_ply(output, **compact, {}); !written)
     return complain(written.error());
   std::cout << document.opened.mesh->vertex_count() << " -> " << left << " vertices, all within "
-            << document.simplify->parameters["error_zone"] << " of the scan, written to " << output
-            << "\n";
+            << number_text(document.simplify->parameters["error_zone"].get<double>(), 3)
+            << " of the scan, written to " << output << "\n";
   return 0;
 }
 

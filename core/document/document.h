@@ -37,7 +37,7 @@ struct Stage {
   MeshPtr mesh;  ///< Null: the step has no output.
   CurvaturesPtr curvatures;
   ErrorZonesPtr zones;  ///< Null: every vertex is its own zone.
-  SharedLineEvidencePtr evidence;  ///< Of the mesh; null: nobody has needed it yet.
+  SharedLineEvidencePtr evidence = nullptr;  ///< Of the mesh; null: nobody has needed it yet.
 };
 
 struct Document {

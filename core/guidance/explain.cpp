@@ -523,6 +523,10 @@ Explanation explain_face(const Document& document, FaceId f) {
     if (passed && partition && passed == &partition->interval && front >= rules.min_faces())
       result.headline = in + "; " + rules.name() + " lies in the interval " +
                         interval_text(rules, *passed) + dated;
+    else if (const auto anchor = partition ? mesh.find_face(partition->anchor) : std::nullopt;
+             votes == 0 && anchor && rules.votes(*anchor) == 0)
+      result.headline =
+          in + ", an area between lines without a vertex inside, judged as a whole" + dated;
     else if (const FaceId across = rules.across_longest(f);
              votes == 0 && across != no_id && document.partitions.label(across) == label)
       result.headline = in + ", joined without a vote across its longest side" + dated;

@@ -163,6 +163,12 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
     }
     if (votes[f] && lowest >= least) key[f] = highest;
   });
+  if (options.bare_areas)
+    for (const BareArea& bare : find_bare_areas(mesh, lines, votes, options.criterion))
+      for (const FaceId f : bare.faces) {
+        votes[f] = 1;
+        if (bare.value >= least) key[f] = bare.value;
+      }
   double whole = 0.0;
   for (const double a : area) whole += a;
   if (context.cancelled()) return cancelled();

@@ -49,10 +49,11 @@ Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvat
 
 /// Partitions of at least options.min_faces and the share of the area they cover for each single
 /// interval [least, Kmax], where `least` is the lower end of the first of options.intervals (0
-/// where there is none). Holes are not filled. `thresholds`: Kmax, any order; empty: `count` of
-/// them, evenly in the logarithm over the middle of the distribution of `values` (the criterion per
-/// vertex) off lines and border. For one interval the partitions are the components of the passing
-/// faces, so that all thresholds together take about as long as one propagation. Errors: cancelled.
+/// where there is none), bare areas with options.bare_areas. Holes are not filled. `thresholds`:
+/// Kmax, any order; empty: `count` of them, evenly in the logarithm over the middle of the
+/// distribution of `values` (the criterion per vertex) off lines and border. For one interval the
+/// partitions are the components of the passing faces, so that all thresholds together take about
+/// as long as one propagation. Errors: cancelled.
 Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<double>& values,
                                            const SharpLines& lines, const PartitionOptions& options,
                                            std::vector<double> thresholds = {},

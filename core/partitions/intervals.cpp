@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/number_text.h"
 #include "core/curvature/distribution.h"
 #include "core/curvature/fields.h"
 
@@ -70,7 +69,6 @@ std::vector<CurvatureInterval> default_intervals(const Mesh& mesh, const Curvatu
   double threshold = bins.edges[cut + 1];
   if (best / all < least_explained * variance)
     threshold = std::max(threshold, distribution.quantile(0.84));  // one deviation up
-  threshold = rounded(threshold, 3);
   return {{0.0, threshold}, {threshold, none}};
 }
 

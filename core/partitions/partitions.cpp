@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <unordered_map>
 
 #include "core/base/parallel.h"
+#include "core/simplification/distance.h"
 
 namespace arris {
 
@@ -69,6 +71,7 @@ class Propagation {
 
   FoundPartitions finish(const PartitionOptions& options) {
     join_faces_without_vote();
+    if (options.bare_areas) take_bare_areas(options);
     if (options.fill_holes > 0) fill_holes(options.fill_holes);
     return std::move(found_);
   }
@@ -97,6 +100,25 @@ class Propagation {
       for (const auto& [f, label] : joined) assign(f, label);
       left = std::move(still);
     } while (!joined.empty());
+  }
+
+  void take_bare_areas(const PartitionOptions& options) {
+    for (const BareArea& area : find_bare_areas(mesh_, lines_, votes_, options.criterion)) {
+      const auto interval = std::ranges::find_if(
+          options.intervals,
+          [&](const CurvatureInterval& i) { return area.value >= i.min && area.value <= i.max; });
+      if (interval == options.intervals.end() || area.faces.size() < options.min_faces ||
+          std::ranges::any_of(area.faces, [&](FaceId f) { return is_taken(f); }))
+        continue;
+      Partition partition;
+      partition.anchor = mesh_.triangle(area.faces.front());
+      partition.mean_value = area.value;
+      partition.criterion = options.criterion;
+      partition.interval = *interval;
+      found_.partitions.push_back(partition);
+      const auto label = static_cast<std::uint32_t>(found_.partitions.size());
+      for (const FaceId f : area.faces) assign(f, label);
+    }
   }
 
   void fill_holes(std::uint32_t limit) {
@@ -246,6 +268,56 @@ Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<dou
   FoundPartitions found = propagation.finish(options);
   context.report(1.0, "partitions");
   return found;
+}
+
+std::vector<BareArea> find_bare_areas(const Mesh& mesh, const SharpLines& lines,
+                                      const std::vector<std::uint8_t>& votes, Criterion criterion) {
+  const auto normal = [&](FaceId f) {
+    const Triangle& t = mesh.triangle(f);
+    return unit_normal(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
+  };
+  std::vector<BareArea> result;
+  std::vector<bool> seen(mesh.face_count(), false);
+  for (FaceId start = 0; start < mesh.face_count(); ++start) {
+    if (seen[start] || votes[start] > 0) continue;
+    BareArea found;
+    found.faces.push_back(start);
+    seen[start] = true;
+    bool is_bare = true;
+    double area = 0.0, turn = 0.0, turn_by_length = 0.0;  // each edge counts at both its ends
+    for (std::size_t next = 0; next < found.faces.size(); ++next) {
+      const FaceId f = found.faces[next];
+      area += face_area(mesh, f);
+      HalfEdgeId h = mesh.face_half_edge(f);
+      for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+        const FaceId across = mesh.face(Mesh::opposite(h));
+        if (across == no_id || lines.is_sharp(h >> 1)) continue;
+        if (votes[across] > 0) {
+          is_bare = false;
+          continue;
+        }
+        const Point own = normal(f), other = normal(across);
+        if (!own.isZero(0.0) && !other.isZero(0.0)) {
+          const double beta = angle_between(own, other);
+          turn += beta;
+          turn_by_length += beta * mesh.edge_length(h >> 1);
+        }
+        if (seen[across]) continue;
+        seen[across] = true;
+        found.faces.push_back(across);
+      }
+    }
+    if (!is_bare) continue;
+    const double angles = std::numbers::pi * static_cast<double>(found.faces.size());
+    double h = 0.0;
+    if (criterion == Criterion::ikabs)
+      h = 1.5 * turn / angles;
+    else if (area > 0.0)
+      h = 0.25 * turn_by_length / area;
+    found.value = 4.0 * h * h;
+    result.push_back(std::move(found));
+  }
+  return result;
 }
 
 Partitions number_partitions(const Mesh& mesh, const FoundPartitions& found,

@@ -38,6 +38,10 @@ struct PartitionOptions {
   /// Unassigned areas with fewer faces join the partition with which they share the longest border
   /// that is not sharp: the specks that noise leaves. Our addition; 0 is the plain algorithm.
   std::uint32_t fill_holes = 0;
+  /// Areas without any regular vertex (find_bare_areas()) are partitions, too, under the first
+  /// interval that their own value lies in. Our addition; false is the plain algorithm, which
+  /// leaves the sides of a cube of 12 triangles unassigned.
+  bool bare_areas = false;
 };
 
 /// A partition: an edge-connected set of faces of slowly varying curvature.
@@ -80,6 +84,19 @@ Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<dou
                                          const SharpLines& lines, const PartitionOptions& options,
                                          const Context& context = {},
                                          const std::vector<bool>& taken = {});
+
+/// An area that sharp lines and the border enclose with no regular vertex inside: the side of a
+/// coarsely cut block, the wall of a cylinder without a ring of vertices between its ends.
+struct BareArea {
+  std::vector<FaceId> faces;
+  /// The criterion of the area as a whole, from H (eq. 5) or IH with the sums over the stars of all
+  /// its vertices, as far as they lie in it, and angles without sign. With no vertex inside it can
+  /// be unrolled, so that K and IK are 0.
+  double value = 0.0;
+};
+/// All of them, by their lowest face. `votes`: regular vertices per face.
+std::vector<BareArea> find_bare_areas(const Mesh& mesh, const SharpLines& lines,
+                                      const std::vector<std::uint8_t>& votes, Criterion criterion);
 
 /// A document's partitions from found ones: each keeps the id of the partition of `previous` with
 /// which it shares most area (tie: the lower id); the others get ids from `next_id` on. `previous`

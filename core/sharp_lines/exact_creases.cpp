@@ -28,13 +28,30 @@ bool is_clean(const Mesh& mesh, const std::vector<float>& beta, EdgeId e,
   return static_cast<float>(flat) >= options.flat_share * static_cast<float>(all);
 }
 
-/// Whether the windows about an edge are fit to judge it: its faces are about as large as most.
-bool has_windows(const Mesh& mesh, const FaceTable& table, EdgeId e) {
-  constexpr float least = 0.4F, most = 2.5F;
+/// Share of the edges within two rings of an edge that have no angle.
+double flat_share_about(const Mesh& mesh, const std::vector<float>& beta, EdgeId e, float flat) {
+  int count = 0, all = 0;
+  for (const VertexId v : mesh.edge(e))
+    mesh.for_ring(v, [&](HalfEdgeId out) {
+      mesh.for_ring(mesh.to(out), [&](HalfEdgeId h) {
+        ++all;
+        count += !mesh.is_border_edge(h >> 1) && std::abs(beta[h >> 1]) * degrees <= flat;
+      });
+    });
+  return static_cast<double>(count) / all;
+}
+
+/// Whether the windows about an edge are fit to judge it: its faces are about as large as most, and
+/// most of what surrounds it is flat, so that it is not the whole of a small part that they see.
+bool has_windows(const Mesh& mesh, const FaceTable& table, EdgeId e, double flat_share) {
+  constexpr double least_length = 0.4, most_length = 2.5;
+  constexpr double least_share = 0.15;
+  constexpr std::size_t least_faces = 500;
+  if (table.size() < least_faces || flat_share < least_share) return false;
   for (const FaceId f : mesh.edge_faces(e))
     for (const EdgeId side : table.sides[f]) {
       const double length = mesh.edge_length(side) / table.unit;
-      if (length < least || length > most) return false;
+      if (length < least_length || length > most_length) return false;
     }
   return true;
 }
@@ -63,17 +80,14 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
       const EdgeId e = h >> 1;
       const double own = mesh.edge_length(e) / table.unit;
       length += own;
-      if (!has_windows(mesh, table, e)) continue;
+      if (!has_windows(mesh, table, e, flat_share_about(mesh, beta, e, options.flat))) continue;
       judged += own;
       const float angle = std::abs(beta[e]) * degrees;
-      if (jump.at_edge[e] <= options.most_jump * angle &&
-          jump.at_edge[e] >= options.least_jump * angle)
-        agreed += own;
+      if (jump.at_edge[e] >= options.least_jump * angle) agreed += own;
     }
     if (judged > 0.2 * length && agreed < 0.5 * judged)
       for (const HalfEdgeId h : chain.half_edges) is_crease[h >> 1] = 0;
   }
-  // On a noisy scan an edge may look clean by chance, but not several in a row.
   std::vector<BorderEdge> result;
   std::vector<EdgeId> group;
   for (const EdgeId start : edges) {
@@ -91,6 +105,18 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
         });
     }
     if (length < options.least_length) continue;
+    // Where corners are cut, as a scan cuts them, most edges turn by a part of the jump only.
+    double judged = 0.0, beyond = 0.0, flat = 0.0;
+    for (const EdgeId e : group) {
+      const double share = flat_share_about(mesh, beta, e, options.flat);
+      flat += share / static_cast<double>(group.size());
+      if (!has_windows(mesh, table, e, share)) continue;
+      judged += mesh.edge_length(e);
+      if (jump.at_edge[e] > options.most_jump * std::abs(beta[e]) * degrees)
+        beyond += mesh.edge_length(e);
+    }
+    // On a noisy scan an edge may look clean by chance, but not with all that surrounds it.
+    if (beyond > options.most_beyond * judged || flat < options.group_flat_share) continue;
     for (const EdgeId e : group) {
       const float angle = beta[e] * degrees;
       result.push_back({e, std::abs(angle), {angle, angle, std::abs(angle)}, true});

@@ -14,10 +14,12 @@ struct ExactCreaseOptions {
   float least_angle = 5.0F;  // degrees: less is not asked for
   float flat = 0.1F;         // degrees: the exterior angle of an edge within a flat or ruled face
   float flat_share = 0.2F;   // of the edges about a crease of a mesh without noise are flat
+  float group_flat_share = 0.15F;  // the same within two edges of a group of creases, on the mean
   // The jump over the window is the angle of the edge itself, within these shares of it: more, and
   // the edge is one of several over which a cut corner turns; less, and a curved face turns there.
   float most_jump = 1.4F;
   float least_jump = 0.3F;
+  float most_beyond = 0.4F;   // share of a group of creases over which the jump may be more
   float least_length = 3.0F;  // mean edges: of a group of creases, unless its faces are large
 };
 

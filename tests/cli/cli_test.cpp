@@ -547,6 +547,17 @@ TEST_F(Cli, SegmentPreparesTheScanUnlessToldNotTo) {
             (std::vector<std::string>{"open", "find_sharp_lines", "find_partitions"}));
 }
 
+TEST_F(Cli, SimplifySaysTheErrorZoneInThreeDigits) {
+  const std::string scan = write_mesh(folder, "scan.ply", sample_mould(2.5));
+  const Outcome outcome = run({"simplify", scan, "-o", folder.file("out.ply")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::size_t start = outcome.out.find("within ") + 7, end = outcome.out.find(" of the scan");
+  ASSERT_LT(start, end);
+  const std::string zone = outcome.out.substr(start, end - start);
+  EXPECT_GT(std::stod(zone), 0.0);
+  EXPECT_LE(zone.size(), std::string("0.00123").size()) << zone;
+}
+
 TEST_F(Cli, ReplayTakesTreatmentsByHand) {
   const std::string part = small_part();
   expect_done({"segment", part, "-o", folder.file("first"), "--no-prepare"});

@@ -183,6 +183,47 @@ TEST(PartitionsOfShapes, CubeOfEightVerticesHasNoRegularVertexAndSoNoPartition) 
   EXPECT_TRUE(part.partitions(with_intervals({{0.0, infinite}})).partitions.empty());
 }
 
+TEST(PartitionsOfShapes, AreasWithoutARegularVertexArePartitionsWhereAsked) {
+  for (const Criterion criterion : {Criterion::kabs, Criterion::ikabs}) {
+    Part part(cube(10.0), 30.0);
+    PartitionOptions options = with_intervals({{0.5, infinite}, {0.0, 1e-6}});
+    options.criterion = criterion;
+    options.bare_areas = true;
+    const FoundPartitions found = part.find(options);
+    ASSERT_EQ(found.partitions.size(), 6u);
+    for (const Partition& side : found.partitions) {
+      EXPECT_EQ(side.faces, 2u);
+      EXPECT_NEAR(side.area, 100.0, 1e-9);
+      EXPECT_EQ(side.mean_value, 0.0);
+      EXPECT_EQ(side.interval, options.intervals[1]);
+    }
+    EXPECT_EQ(std::count(found.labels.begin(), found.labels.end(), 0u), 0);
+    options.min_faces = 3;
+    EXPECT_TRUE(part.find(options).partitions.empty());
+    options.min_faces = 1;
+    options.intervals = {{1e-6, infinite}};
+    EXPECT_TRUE(part.find(options).partitions.empty());
+  }
+}
+
+TEST(PartitionsOfShapes, ABareWallHasTheCurvatureOfItsCylinder) {
+  // Only the end circles have vertices, 40 each: the wall unrolls, and its Kabs is 1 / r^2 but for
+  // the polygon's turn over its perimeter.
+  const double radius = 10.0;
+  Part part(capped_cylinder(radius, 30.0, 40, 1, 1), 30.0);
+  PartitionOptions options = with_intervals({{0.0, infinite}});
+  options.bare_areas = true;
+  const FoundPartitions found = part.find(options);
+  ASSERT_EQ(found.partitions.size(), 3u);
+  int walls = 0;
+  for (const Partition& partition : found.partitions) {
+    if (partition.faces != 80u) continue;
+    ++walls;
+    EXPECT_NEAR(partition.mean_value, 1.0 / (radius * radius), 0.01 / (radius * radius));
+  }
+  EXPECT_EQ(walls, 1);
+}
+
 TEST(PartitionsOfShapes, StepHasTwoLevelsAndAWall) {
   Part part(stepped_plate(10.0, 20.0, 4.0, 1.0), 30.0);
   const Partitions found = part.partitions(with_intervals({{0.0, 1e-6}}));

@@ -71,9 +71,14 @@ TEST(PartitionStability, EachPointIsWhatThePropagationFinds) {
   const std::vector<double>& values = document.curvatures->kabs;
   double whole = 0.0;
   for (FaceId f = 0; f < mesh.face_count(); ++f) whole += face_area(mesh, f);
-  for (const auto& [least, min_faces] : {std::pair{0.0, 1u}, {0.0, 20u}, {1e-4, 5u}}) {
+  for (const auto& [least, min_faces, bare] : {std::tuple{0.0, 1u, false},
+                                               {0.0, 1u, true},
+                                               {0.0, 20u, true},
+                                               {1e-4, 5u, false},
+                                               {1e-4, 2u, true}}) {
     PartitionOptions options;
     options.min_faces = min_faces;
+    options.bare_areas = bare;
     options.intervals = {{least, 1.0}};
     const StabilityCurve curve =
         value_of(partition_stability(mesh, values, document.lines, options, {}, 9));

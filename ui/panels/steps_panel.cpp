@@ -184,6 +184,12 @@ QString with_range(const StepParameter& p) {
   return p.tooltip.isEmpty() ? range : p.tooltip + QLatin1Char('\n') + range;
 }
 
+/// Values that nobody typed, such as defaults from the part, are not rounded: they are shown with
+/// three significant digits. Typed ones are shown whole.
+double shown(double value) {
+  return round_significant(value, 6) == value ? value : round_significant(value, 3);
+}
+
 NumberBox* number_box(const StepParameter& p, QWidget* parent) {
   auto* box = new NumberBox(parent);
   box->setDecimals(p.decimals);
@@ -208,7 +214,7 @@ class RealField : public Field {
     box_->interpretText();
     return box_->value();
   }
-  void show() override { box_->setValue(parameter_.value.toDouble()); }
+  void show() override { box_->setValue(shown(parameter_.value.toDouble())); }
 
  private:
   NumberBox* box_;
@@ -321,7 +327,7 @@ class IntervalsField : public Field {
     while (rows_.size() > static_cast<std::size_t>(list.size())) drop_row(rows_.back().frame);
     for (int i = 0; i < list.size(); ++i) {
       const QVariantList ends = list[i].toList();
-      const double low = ends.value(0).toDouble(), high = ends.value(1).toDouble();
+      const double low = shown(ends.value(0).toDouble()), high = shown(ends.value(1).toDouble());
       if (i < static_cast<int>(rows_.size())) {
         rows_[i].low->setValue(low);
         rows_[i].high->setValue(high);

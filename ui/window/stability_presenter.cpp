@@ -118,6 +118,7 @@ void StabilityPresenter::refresh() {
               line_stability(*basis.mesh, *basis.curvatures, evidence, options, {}, 24, context));
         }
         PartitionOptions options;
+        options.bare_areas = true;
         options.criterion = p.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
         options.min_faces = p.at("min_faces");
         const double least = p.at("least");

@@ -234,19 +234,22 @@ void StepsPresenter::refresh() {
              : step->out_of_date ? StepState::out_of_date
                                  : StepState::done;
     };
-    const double longest = 1000.0 * std::max(1.0, document.mesh->diagonal());
+    const double diagonal = document.mesh->diagonal(), longest = 1000.0 * diagonal;
+    // As many as show a millionth of a percent of the part in whatever unit, 6 for one of 200 mm.
+    const int magnitude = diagonal > 0.0 ? static_cast<int>(std::floor(std::log10(diagonal))) : 0;
+    const int length_decimals = std::clamp(8 - magnitude, 0, 15);
     const nlohmann::json z = session_->parameters("simplify");
     simplify.state = state(document.simplify);
     simplify.time = seconds_text(session_->seconds_of("simplify"));
     simplify.parameters = {
         real("error_zone", tr("Error zone"),
              tr("Radius of the sphere round each vertex of the scan that the surface has to meet. "
-                "The default is the noise of the scan."),
-             z.value("error_zone", 0.0), 0.0, longest, 6, " mm"),
+                "The default is three times the noise of the scan."),
+             z.value("error_zone", 0.0), 0.0, longest, length_decimals, " mm"),
         real("max_edge_length", tr("Longest edge"),
              tr("No new edge becomes longer than this, so that flat areas stay populated; 0: no "
                 "limit."),
-             z.value("max_edge_length", 0.0), 0.0, longest, 6, " mm")};
+             z.value("max_edge_length", 0.0), 0.0, longest, length_decimals, " mm")};
     if (document.simplified.mesh)
       simplify.result =
           vertices_text(*document.opened.mesh, *document.simplified.mesh) +
@@ -281,7 +284,7 @@ void StepsPresenter::refresh() {
               p.value("candidates", 3), 1, 32),
         real("min_length", tr("Least length"),
              tr("Isolated lines shorter than this are removed; 0 keeps them."),
-             p.value("min_length", 0.0), 0.0, longest, 3, " mm"),
+             p.value("min_length", 0.0), 0.0, longest, length_decimals, " mm"),
         whole("parallel_distance", tr("Parallel within"),
               tr("Of two parallel lines of one sign this many edges apart the weaker is removed; 0 "
                  "keeps both."),
@@ -289,7 +292,7 @@ void StepsPresenter::refresh() {
         real("bridge_gap", tr("Bridge gaps"),
              tr("Loose ends that face each other over at most this distance are joined; 0 joins "
                 "none."),
-             p.value("bridge_gap", 0.0), 0.0, longest, 3, " mm")};
+             p.value("bridge_gap", 0.0), 0.0, longest, length_decimals, " mm")};
     if (document.find_sharp_lines) {
       double length = 0.0;
       for (const LinePtr& line : document.lines.lines) length += line->length;
@@ -328,7 +331,7 @@ void StepsPresenter::refresh() {
     intervals.value = list;
     intervals.least = 0.0;
     intervals.most = 1e12;
-    intervals.decimals = 9;
+    intervals.decimals = std::clamp(5 + 2 * magnitude, 3, 15);
     partitions.parameters = {
         criterion, intervals,
         whole("min_faces", tr("Least faces"), tr("Partitions with fewer faces are not kept."),

@@ -1,7 +1,5 @@
 #include "core/sharp_lines/sharp_lines.h"
 
-#include <algorithm>
-
 #include "core/base/number_text.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
@@ -15,7 +13,7 @@ Result<nlohmann::json> resolve_lines(const Document& document, const nlohmann::j
   // Defaults come from the scan: a simplified mesh has sharp angles everywhere and long edges.
   const Stage& base = document.opened;
   const Mesh& mesh = *base.mesh;
-  const double longest = std::max(mesh.diagonal(), 1.0) * 1000.0;
+  const double longest = 1000.0 * mesh.diagonal();
   const SharpLineOptions defaults;
   ParameterReader reader("find_sharp_lines", given);
   const LineMethod method =

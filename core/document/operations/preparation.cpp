@@ -40,7 +40,7 @@ Result<Document> take(const Document& document, const Stage& base, Prepared prep
 }
 
 Result<nlohmann::json> resolve_simplify(const Document& document, const nlohmann::json& given) {
-  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  const double longest = 1000.0 * document.mesh->diagonal();
   ParameterReader reader("simplify", given);
   const bool has_zone = reader.has("error_zone") && !given["error_zone"].is_null();
   reader.real("error_zone", has_zone ? 0.0 : default_error_zone(*document.opened.mesh), 0.0,

@@ -270,7 +270,7 @@ Result<json> resolve_recompute(const Document& document, const json& given) {
   read_angle(reader, document);
   read_bounds(reader);
   reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
-  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  const double longest = 1000.0 * document.mesh->diagonal();
   reader.real("min_length", 0.0, 0.0, longest);
   return reader.finish();
 }

@@ -194,6 +194,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
                                const Context& context) {
   const Mesh& mesh = *document.mesh;
   PartitionOptions options;
+  options.bare_areas = true;
   bool switched_on = true;
   if (parameters) {
     options.criterion = parameters->at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
@@ -367,7 +368,7 @@ VertexId read_vertex(ParameterReader& reader, const Document& document, const st
 
 void read_region(ParameterReader& reader, const Document& document, const std::string& name) {
   const nlohmann::json given = reader.raw(name);
-  const double longest = 1000.0 * std::max(document.mesh->diagonal(), 1.0);
+  const double longest = 1000.0 * document.mesh->diagonal();
   if (!given.is_object() || given.size() != 2 || !given.contains("vertices") ||
       !given.contains("radius") || !is_list_of_vertices(given["vertices"]) ||
       given["vertices"].empty() || !given["radius"].is_number() ||

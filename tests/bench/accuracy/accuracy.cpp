@@ -118,6 +118,8 @@ int main(int argc, char** argv) {
   app.add_option("--save", wishes.save, "Write parts and results for each case and method there");
   app.add_flag("--markdown", markdown, "Tables as Markdown");
   app.add_flag("--generated,!--no-generated", generated, "With or without parts made by code");
+  bool with_ideas = false;
+  app.add_flag("--ideas", with_ideas, "The default method with each of its ideas off, too");
   app.add_flag("--summary", summary_only, "Leave the table of single cases out");
   app.add_flag("--quiet", wishes.quiet, "Do not name each case on standard error");
   try {
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : bad_usage;
   }
 
-  std::vector<Method> methods = method_table();
+  std::vector<Method> methods = method_table(with_ideas);
   for (const std::string& text : added) {
     Result<Method> method = method_from(text);
     if (!method) return complain(method.error().message, bad_usage);

@@ -19,6 +19,7 @@
 
 #include "core/document/document.h"
 #include "core/document/operation.h"
+#include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/lines.h"
 
 namespace arris::accuracy {
@@ -60,6 +61,51 @@ Result<Found> run_operations(const std::vector<Operation>& operations, const Sca
   if (document->find_partitions) found.labels = labels_on_scan(*document);
   return found;
 }
+
+/// The lines of the default method with some of its ideas changed.
+struct Idea {
+  const char* name;
+  void (*change)(LineEvidenceOptions&, LineChoiceOptions&);
+};
+
+Result<Found> jump_lines(const ScanPtr& scan, const Idea& idea) {
+  const Mesh& mesh = *scan->mesh;
+  const Result<CurvaturesPtr> curvatures = compute_curvatures(mesh);
+  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
+  LineEvidenceOptions options;
+  LineChoiceOptions choice;
+  idea.change(options, choice);
+  const Result<LineEvidencePtr> evidence = gather_line_evidence(mesh, **curvatures, options);
+  if (!evidence) return tl::unexpected<Error>(evidence.error());
+  choice.angle = static_cast<float>(std::round(jump_threshold((*evidence)->noise, options)));
+  std::vector<Origin> edges(mesh.edge_count(), Origin::none);
+  for (const EdgeId e : (*evidence)->candidates.choose(choice)) edges[e] = Origin::found;
+  Found found;
+  for (const Line& line : derive_lines(mesh, **curvatures, edges))
+    found.lines.push_back(polyline(mesh, line.vertices));
+  return found;
+}
+
+/// Each idea of the default method switched off, one at a time.
+constexpr Idea ideas[] = {
+    {"no extrapolation", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.jump.ridge = 1e6F; }},
+    {"no slant", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.jump.least_slant = 1e-3F; }},
+    {"no first cut", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.first_cut = 5.0F; }},
+    {"no ratio test",
+     [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.test.least_ratio = 0.0F; }},
+    {"no rule for narrow sides",
+     [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.test.narrow = 1.0F; }},
+    {"no pooling", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.test.pooled = 0; }},
+    {"no rule for thin strips",
+     [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.thin = 0.0F; }},
+    {"no teeth taken off",
+     [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.smoothing = 0; }},
+    {"no slits", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.least_slit = 0.0F; }},
+    {"no closing", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.gap = 0.0F; }},
+    {"no filter", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.filter.rounds = 0; }},
+    {"no rise with noise", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.rise = 0.0F; }},
+    {"no exact creases", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.exact = false; }},
+};
 
 /// All edges of an exterior angle above the usual one, linked into lines.
 Result<Found> dihedral_lines(const ScanPtr& scan) {
@@ -145,12 +191,15 @@ Result<Method> operations_method(const std::string& name, std::string_view opera
   });
 }
 
-std::vector<Method> method_table() {
+std::vector<Method> method_table(bool with_ideas) {
   constexpr std::pair<const char*, const char*> flows[] = {
       // As arris-cli segment and the window's F5.
-      {"default", R"([{"operation": "simplify"}, {"operation": "find_sharp_lines"},
-                      {"operation": "equilateralize"}, {"operation": "find_partitions"}])"},
-      {"no-prepare", R"([{"operation": "find_sharp_lines"}, {"operation": "find_partitions"}])"},
+      {"default", R"([{"operation": "find_sharp_lines"}, {"operation": "find_partitions"}])"},
+      // Figure 2 of the paper, as segment --flow paper.
+      {"paper", R"([{"operation": "simplify"}, {"operation": "find_sharp_lines", "method": "walk"},
+                    {"operation": "equilateralize"}, {"operation": "find_partitions"}])"},
+      {"walk", R"([{"operation": "find_sharp_lines", "method": "walk"},
+                   {"operation": "find_partitions"}])"},
   };
   std::vector<Method> methods;
   for (const auto& [name, operations] : flows) {
@@ -158,6 +207,10 @@ std::vector<Method> method_table() {
     if (!method) throw std::logic_error(method.error().message);
     methods.push_back(std::move(*method));
   }
+  if (with_ideas)
+    for (const Idea& idea : ideas)
+      methods.push_back(
+          timed(idea.name, [&idea](const ScanPtr& scan) { return jump_lines(scan, idea); }));
   methods.push_back(timed("dihedral 30", dihedral_lines));
 #ifdef ARRIS_ACCURACY_VTK
   methods.push_back(timed("vtkFeatureEdges", vtk_feature_edges));

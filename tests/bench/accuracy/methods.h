@@ -16,8 +16,9 @@ struct Method {
   std::function<Result<Found>(const ScanPtr&)> run;
 };
 
-/// The methods every run compares. A new row is a name and a list of operations.
-std::vector<Method> method_table();
+/// The methods every run compares. A new row is a name and a list of operations. `with_ideas`: the
+/// default method with each of its ideas switched off, too.
+std::vector<Method> method_table(bool with_ideas);
 
 /// Operations of the document in their order, as JSON objects with parameters; what is left out
 /// takes its default from the part. The labels are those carried to the scan.
