@@ -86,6 +86,13 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
     *borders = merge_creases(
         mesh, *borders,
         find_exact_creases(mesh, curvatures.beta, table, *jump, options.creases));
+  if (options.open) {
+    const std::vector<BorderEdge> crests = find_crests(mesh, table, *jump, *borders, options.crests);
+    std::vector<BorderEdge> all(borders->size() + crests.size());
+    std::merge(borders->begin(), borders->end(), crests.begin(), crests.end(), all.begin(),
+               [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; });
+    *borders = std::move(all);
+  }
   evidence->jump.resize(mesh.edge_count());
   parallel_for(evidence->jump.size(), [&](std::size_t e) {
     evidence->jump[e] = jump->convex[e] ? jump->at_edge[e] : -jump->at_edge[e];
