@@ -25,7 +25,7 @@ class Thinning {
 
   void thin(float sign, float least) {
     const auto in_band = [&](VertexId v) {
-      return sign * jump_.at_vertex[v] >= least && !mesh_.is_border(v);
+      return sign * jump_.at_vertex[v] >= least && !mesh_.is_border(v) && fits_windows(v);
     };
     for (FaceId f = 0; f < inside_.size(); ++f) {
       const Triangle& t = mesh_.triangle(f);
@@ -62,6 +62,17 @@ class Thinning {
   std::vector<std::uint8_t>& kept() { return kept_; }
 
  private:
+  /// Edges far shorter or longer than the mean are no scan's: windows say nothing there.
+  bool fits_windows(VertexId v) const {
+    constexpr double shortest = 0.25, longest = 4.0;
+    bool fits = true;
+    mesh_.for_ring(v, [&](HalfEdgeId h) {
+      const double length = mesh_.edge_length(h >> 1) / table_.unit;
+      fits = fits && length >= shortest && length <= longest;
+    });
+    return fits;
+  }
+
   const Mesh& mesh_;
   const FaceTable& table_;
   const NormalJump& jump_;
@@ -104,7 +115,7 @@ void cut_spurs(const Mesh& mesh, double unit, float most, std::vector<EdgeId>& e
 
 std::vector<BorderEdge> find_crests(const Mesh& mesh, const FaceTable& table,
                                     const NormalJump& jump, const std::vector<BorderEdge>& borders,
-                                    const CrestOptions& options) {
+                                    float height, const CrestOptions& options) {
   Thinning thinning(mesh, table, jump);
   thinning.thin(1.0F, options.least);
   thinning.thin(-1.0F, options.least);
@@ -115,9 +126,11 @@ std::vector<BorderEdge> find_crests(const Mesh& mesh, const FaceTable& table,
   cut_spurs(mesh, table.unit, options.spur, edges, kept);
 
   constexpr int rings = 2;
+  constexpr std::ptrdiff_t way_on = 4;  // edges that lead from a crest to the border it runs into
   std::vector<std::uint8_t> beside(mesh.vertex_count(), 0);
   std::vector<VertexId> front;
   for (const BorderEdge& border : borders) {
+    if (border.height <= height) continue;
     kept[border.edge] = 0;
     for (const VertexId v : mesh.edge(border.edge))
       if (!beside[v]) {
@@ -159,10 +172,28 @@ std::vector<BorderEdge> find_crests(const Mesh& mesh, const FaceTable& table,
       const EdgeId e = chain.half_edges[static_cast<std::size_t>(i)] >> 1;
       BorderEdge crest{e, 0.0F, {sum / weights, turn / weights, std::abs(sum) / weights}, false};
       if (crest.place.jump < 0.0F) crest.place.turn = -crest.place.turn;
-      const EdgeVertices& ends = mesh.edge(e);
-      if (beside[ends[0]] && beside[ends[1]]) crest.place.value = 0.0F;
       result.push_back(crest);
     }
+    // Beside a border a crest only leads the way from one that is not.
+    const auto is_beside = [&](std::ptrdiff_t i) {
+      const EdgeVertices& ends = mesh.edge(chain.half_edges[static_cast<std::size_t>(i)] >> 1);
+      return beside[ends[0]] && beside[ends[1]];
+    };
+    std::vector<BorderEdge> kept_places;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+      BorderEdge crest = result[result.size() - static_cast<std::size_t>(n - i)];
+      if (is_beside(i)) {
+        bool leads = false;
+        for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, i - way_on);
+             k <= std::min(n - 1, i + way_on); ++k)
+          leads = leads || !is_beside(k);
+        if (!leads) continue;
+        crest.place.value = 0.0F;
+      }
+      kept_places.push_back(crest);
+    }
+    result.resize(result.size() - static_cast<std::size_t>(n));
+    result.insert(result.end(), kept_places.begin(), kept_places.end());
   }
   std::sort(result.begin(), result.end(),
             [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; });
