@@ -199,8 +199,7 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
   if (document.mesh && document.mesh != base.mesh) bytes += document.mesh->bytes();
   if (document.curvatures && document.curvatures != base.curvatures)
     bytes += document.curvatures->bytes();
-  if (document.evidence && document.evidence != base.evidence)
-    bytes += document.evidence->bytes();
+  if (document.evidence && document.evidence != base.evidence) bytes += document.evidence->bytes();
   const auto add_stage = [&](const Stage& stage, const Stage& other) {
     if (stage.mesh && stage.mesh != document.mesh && stage.mesh != other.mesh)
       bytes += stage.mesh->bytes() + (stage.curvatures ? stage.curvatures->bytes() : 0);

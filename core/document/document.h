@@ -36,7 +36,7 @@ struct Step {
 struct Stage {
   MeshPtr mesh;  ///< Null: the step has no output.
   CurvaturesPtr curvatures;
-  ErrorZonesPtr zones;  ///< Null: every vertex is its own zone.
+  ErrorZonesPtr zones;                       ///< Null: every vertex is its own zone.
   SharedLineEvidencePtr evidence = nullptr;  ///< Of the mesh; null: nobody has needed it yet.
 };
 

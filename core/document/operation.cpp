@@ -88,11 +88,10 @@ Result<Operation> resolve(const Document& document, const Operation& operation) 
     return fail(operation.name + ": no part is open.");
   nlohmann::json parameters = operation.parameters;
   if (const auto version = parameters.find(version_key); version != parameters.end()) {
-    const bool is_older = version->is_number_integer() && version->get<std::int64_t>() >= 1 &&
-                          version->get<std::int64_t>() < kind->version && kind->upgrade;
-    if (is_older)
-      parameters = kind->upgrade(version->get<int>(), std::move(parameters));
-    else if (!version->is_number_integer() || version->get<std::int64_t>() != kind->version)
+    const std::int64_t stored = version->is_number_integer() ? version->get<std::int64_t>() : 0;
+    if (stored >= 1 && stored < kind->version && kind->upgrade)
+      parameters = kind->upgrade(static_cast<int>(stored), std::move(parameters));
+    else if (stored != kind->version)
       return fail(operation.name + ": its version is " + version->dump() + ", this build knows " +
                   std::to_string(kind->version) + ".");
     parameters.erase(version_key);

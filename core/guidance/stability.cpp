@@ -97,8 +97,7 @@ FaceId across_longest(const Mesh& mesh, const SharpLines& lines, FaceId f) {
 }  // namespace
 
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
-                                      const LineEvidence* evidence,
-                                      const SharpLineOptions& options,
+                                      const LineEvidence* evidence, const SharpLineOptions& options,
                                       std::vector<double> thresholds, std::size_t count,
                                       const Context& context) {
   const bool by_jump = options.method == LineMethod::normal_jump;

@@ -42,8 +42,7 @@ struct Plateau {
 /// noise of the mesh (30 degrees at most) to its sharpest edge (120 at most). One
 /// find_sharp_edges() per threshold, in parallel; `evidence` as there. Errors: cancelled.
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
-                                      const LineEvidence* evidence,
-                                      const SharpLineOptions& options,
+                                      const LineEvidence* evidence, const SharpLineOptions& options,
                                       std::vector<double> thresholds = {}, std::size_t count = 24,
                                       const Context& context = {});
 

@@ -24,8 +24,8 @@ constexpr std::ptrdiff_t smoothing = 3;  // places on either side over which a c
 
 BorderTest::BorderTest(const Mesh& mesh, const FaceTable& table,
                        const std::vector<Vector3f>& normals,
-                       const std::vector<std::uint32_t>& labels,
-                       std::vector<std::uint32_t>& parent, const BorderTestOptions& options)
+                       const std::vector<std::uint32_t>& labels, std::vector<std::uint32_t>& parent,
+                       const BorderTestOptions& options)
     : mesh_(mesh),
       table_(table),
       normals_(normals),
@@ -107,7 +107,8 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
     Sums& sums = sums_[slot_of_edge_[h >> 1]];
     sums = {};
     Vector3f middle = Vector3f::Zero();
-    for (std::ptrdiff_t k = 1 - range; k <= range; ++k) middle += table_.points[vertex(chain, i + k)];
+    for (std::ptrdiff_t k = 1 - range; k <= range; ++k)
+      middle += table_.points[vertex(chain, i + k)];
     middle /= static_cast<float>(2 * range);
     const auto between = [&](std::ptrdiff_t a, std::ptrdiff_t b) -> Vector3f {
       return table_.points[vertex(chain, b)] - table_.points[vertex(chain, a)];
@@ -118,16 +119,14 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
     // A border that bends is pooled over less of its length.
     const Vector3f before = between(i - range - 1, i + 1), after = between(i, i + range + 2);
     const float lengths = before.norm() * after.norm();
-    const float bend =
-        lengths > 0.0F ? std::acos(std::clamp(before.dot(after) / lengths, -1.0F, 1.0F)) /
-                             std::max(0.5F * (before.norm() + after.norm()), 1e-6F)
-                       : 0.0F;
-    const float along =
-        std::max(std::min(options_.along, 0.6F / std::max(bend, 1e-6F)), 0.35F);
+    const float bend = lengths > 0.0F
+                           ? std::acos(std::clamp(before.dot(after) / lengths, -1.0F, 1.0F)) /
+                                 std::max(0.5F * (before.norm() + after.norm()), 1e-6F)
+                           : 0.0F;
+    const float along = std::max(std::min(options_.along, 0.6F / std::max(bend, 1e-6F)), 0.35F);
     const FaceId left = mesh_.face(h), right = mesh_.face(Mesh::opposite(h));
     const std::array<std::uint32_t, 2> regions{region(left), region(right)};
-    const auto& faces =
-        window.grow(std::array{left, right}, middle, options_.far + 0.5F);
+    const auto& faces = window.grow(std::array{left, right}, middle, options_.far + 0.5F);
     std::array<Vector3f, 2> mean{Vector3f::Zero(), Vector3f::Zero()};
     const auto side_of = [&](FaceId f) {
       const std::uint32_t r = region(f);
@@ -164,8 +163,7 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
         if (own) sums.own_far[side] += w;
       }
       if (!own) continue;
-      const float turn =
-          std::atan2(normals_[f].dot(leftwards), normals_[f].dot(up)) * degrees;
+      const float turn = std::atan2(normals_[f].dot(leftwards), normals_[f].dot(up)) * degrees;
       std::array<float, 5>& s = sums.side[side];
       s[0] += w;
       s[1] += w * t;

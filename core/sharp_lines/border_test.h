@@ -12,12 +12,12 @@ namespace arris {
 
 /// Lengths in mean edges, angles in degrees.
 struct BorderTestOptions {
-  float near = 0.9F;   // across the border, the strip about it that the rounding spoils
-  float far = 3.2F;    // across the border, where the sides end
-  float along = 1.5F;  // spread of a place along the border; less where the border bends
-  int pooled = 5;      // places on either side that count in, ever less
+  float near = 0.9F;    // across the border, the strip about it that the rounding spoils
+  float far = 3.2F;     // across the border, where the sides end
+  float along = 1.5F;   // spread of a place along the border; less where the border bends
+  int pooled = 5;       // places on either side that count in, ever less
   float narrow = 0.8F;  // share of its mean turn that a side too narrow for a slope is taken for
-  float least_ratio = 0.5F;  // of the jump to the turn between the means: below, it is a fillet
+  float least_ratio = 0.5F;     // of the jump to the turn between the means: below, it is a fillet
   float most_of_fillet = 8.0F;  // and its jump counts for this at most
 };
 

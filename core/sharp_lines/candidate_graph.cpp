@@ -42,8 +42,9 @@ CandidateGraph::CandidateGraph(const Mesh& mesh, double unit, std::vector<Border
 }
 
 const BorderEdge* CandidateGraph::find(EdgeId e) const {
-  const auto found = std::lower_bound(edges_.begin(), edges_.end(), e,
-                                      [](const BorderEdge& edge, EdgeId x) { return edge.edge < x; });
+  const auto found =
+      std::lower_bound(edges_.begin(), edges_.end(), e,
+                       [](const BorderEdge& edge, EdgeId x) { return edge.edge < x; });
   return found != edges_.end() && found->edge == e ? &*found : nullptr;
 }
 
@@ -52,8 +53,7 @@ std::size_t CandidateGraph::bytes() const {
          starts_.size() * sizeof starts_[0];
 }
 
-std::size_t CandidateGraph::degree(std::uint32_t v,
-                                   const std::vector<std::uint8_t>& chosen) const {
+std::size_t CandidateGraph::degree(std::uint32_t v, const std::vector<std::uint8_t>& chosen) const {
   std::size_t count = 0;
   for (const Half& half : around(v)) count += chosen[half.edge];
   return count;
@@ -84,7 +84,8 @@ void CandidateGraph::add_slits(const LineChoiceOptions& options,
     const auto is_slit = [&](std::uint32_t e) {
       const BorderPlace& place = edges_[e].place;
       return !chosen[e] && !seen[e] && place.value >= options.angle &&
-             may_be_line(place, options) && std::abs(place.jump) >= clear_ratio * std::abs(place.turn);
+             may_be_line(place, options) &&
+             std::abs(place.jump) >= clear_ratio * std::abs(place.turn);
     };
     if (!is_slit(start)) continue;
     group.assign(1, start);

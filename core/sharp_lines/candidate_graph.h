@@ -10,8 +10,8 @@
 namespace arris {
 
 struct LineChoiceOptions {
-  float angle = 27.0F;       // degrees: the threshold
-  float max_angle = 180.0F;  // degrees: what is sharper is no line, either
+  float angle = 27.0F;                 // degrees: the threshold
+  float max_angle = 180.0F;            // degrees: what is sharper is no line, either
   bool convex = true, concave = true;  // signs of the jump that may be lines
   // Lengths in mean edges. A line inside a region (a step that fades out, a slit) is told by its
   // own jump alone, so it has to be the longer the less it jumps: its length counts by the square

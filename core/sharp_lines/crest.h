@@ -19,8 +19,9 @@ struct CrestOptions {
 /// fades out inside an area. The band of vertices that jump is thinned from its rims inwards,
 /// weakest edge first, so that what is left runs along the crest and keeps the band's topology;
 /// convex and concave bands for themselves. Each place reads the mean of its neighbours along the
-/// crest. Within two edges of `borders` that stand above `height` (degrees), crests are kept as ways
-/// on only (value 0). By increasing edge; without edges of such `borders`. `borders`: by increasing edge.
+/// crest. Within two edges of `borders` that stand above `height` (degrees), crests are kept as
+/// ways on only (value 0). By increasing edge; without edges of such `borders`. `borders`: by
+/// increasing edge.
 std::vector<BorderEdge> find_crests(const Mesh& mesh, const FaceTable& table,
                                     const NormalJump& jump, const std::vector<BorderEdge>& borders,
                                     float height, const CrestOptions& options);

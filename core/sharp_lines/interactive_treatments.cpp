@@ -225,7 +225,8 @@ std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region)
 }
 
 LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
-                             const LineEvidence* evidence, const SharpLines& lines, const std::unordered_set<VertexId>& region,
+                             const LineEvidence* evidence, const SharpLines& lines,
+                             const std::unordered_set<VertexId>& region,
                              const SharpLineOptions& options) {
   LocalEdges edges(mesh, lines);
   edges.keep_to(region);

@@ -75,7 +75,8 @@ std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region)
 /// as find_sharp_edges()); isolated lines that lie inside altogether and are shorter than
 /// options.min_length go.
 LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
-                             const LineEvidence* evidence, const SharpLines& lines, const std::unordered_set<VertexId>& region,
+                             const LineEvidence* evidence, const SharpLines& lines,
+                             const std::unordered_set<VertexId>& region,
                              const SharpLineOptions& options);
 
 }  // namespace arris

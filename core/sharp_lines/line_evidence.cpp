@@ -112,10 +112,10 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
   if (!borders) return tl::unexpected<Error>(borders.error());
   if (options.exact)
     *borders = merge_creases(
-        mesh, *borders,
-        find_exact_creases(mesh, curvatures.beta, table, *jump, options.creases));
+        mesh, *borders, find_exact_creases(mesh, curvatures.beta, table, *jump, options.creases));
   if (options.open) {
-    const std::vector<BorderEdge> crests = find_crests(mesh, table, *jump, *borders, regions.first_cut, options.crests);
+    const std::vector<BorderEdge> crests =
+        find_crests(mesh, table, *jump, *borders, regions.first_cut, options.crests);
     *borders = merged(*borders, crests);
   }
   evidence->jump.resize(mesh.edge_count());
@@ -127,8 +127,7 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
       evidence->jump[border.edge] =
           border.place.turn >= 0.0F ? border.place.value : -border.place.value;
   evidence->candidates = CandidateGraph(mesh, table.unit, std::move(*borders));
-  evidence->measures =
-      as_measures(mesh, *jump, evidence->jump, evidence->candidates.edges());
+  evidence->measures = as_measures(mesh, *jump, evidence->jump, evidence->candidates.edges());
   context.report(1.0, "line evidence");
   if (context.cancelled()) return cancelled();
   return evidence;

@@ -26,13 +26,13 @@ struct LineEvidenceOptions {
   CrestOptions crests;
   NormalFilterOptions filter{2, 0.5F};  // rounds for harsh noise
   float threshold = 27.0F;              // degrees, where the noise is ordinary
-  float harsh = 12.0F;  // degrees of normal noise from which normals are filtered first
-  float ordinary = 11.0F;  // degrees of normal noise up to which thresholds stay as they are,
-  float rise = 0.7F;       // how much they rise for each degree beyond that,
-  float most_rise = 9.0F;  // and at most;
+  float harsh = 12.0F;          // degrees of normal noise from which normals are filtered first
+  float ordinary = 11.0F;       // degrees of normal noise up to which thresholds stay as they are,
+  float rise = 0.7F;            // how much they rise for each degree beyond that,
+  float most_rise = 9.0F;       // and at most;
   float first_cut_rise = 0.8F;  // the first cut of the regions rises by this share of that
-  bool exact = true;  // creases of places without noise by their own angle
-  bool open = true;   // lines that part no regions, along crests of the jump
+  bool exact = true;            // creases of places without noise by their own angle
+  bool open = true;             // lines that part no regions, along crests of the jump
 };
 
 /// Threshold in degrees for this much normal noise, degrees.
@@ -40,7 +40,7 @@ double jump_threshold(float noise, const LineEvidenceOptions& options = {});
 
 /// All that tells a sharp line on one mesh and does not depend on the threshold.
 struct LineEvidence {
-  float noise = 0.0F;    ///< normal_noise(), degrees.
+  float noise = 0.0F;  ///< normal_noise(), degrees.
   /// Per edge, signed degrees, convex positive: the jump of the normals across it. On a border
   /// between regions it is the one of the border, pooled along it.
   std::vector<float> jump;

@@ -74,8 +74,8 @@ class JoinForest {
   std::uint32_t joins_ = 0;
 };
 
-/// Joins what no border of `options.first_cut` parts by the jump itself. Borders that went are added
-/// to `low` (null: not wanted), as far as they count for something.
+/// Joins what no border of `options.first_cut` parts by the jump itself. Borders that went are
+/// added to `low` (null: not wanted), as far as they count for something.
 FaceRegions first_cut(const FaceTable& table, const std::vector<float>& jump,
                       const std::vector<float>& edge_length,
                       const std::vector<std::array<FaceId, 2>>& edge_faces, FaceRegions regions,
@@ -129,9 +129,9 @@ struct TestedBorder {
 /// The joining of regions by the test of their borders, which notes when each border edge goes.
 class TestedJoining {
  public:
-  TestedJoining(const Mesh& mesh, const FaceTable& table, const std::vector<Eigen::Vector3f>& normals,
-                const FaceRegions& regions, const std::vector<float>& edge_length,
-                const LineRegionOptions& options)
+  TestedJoining(const Mesh& mesh, const FaceTable& table,
+                const std::vector<Eigen::Vector3f>& normals, const FaceRegions& regions,
+                const std::vector<float>& edge_length, const LineRegionOptions& options)
       : mesh_(mesh),
         table_(table),
         edge_length_(edge_length),
@@ -146,10 +146,7 @@ class TestedJoining {
     tbb::enumerable_thread_specific<FaceWindow> windows([&] { return FaceWindow(table); });
     parallel_for(
         test_.chains().size(),
-        [&](std::size_t k) {
-          test_.measure(static_cast<std::uint32_t>(k), windows.local());
-        },
-        4);
+        [&](std::size_t k) { test_.measure(static_cast<std::uint32_t>(k), windows.local()); }, 4);
     chains_of_.resize(regions.count);
     for (std::uint32_t k = 0; k < test_.chains().size(); ++k) {
       const auto [a, b] = test_.sides(k);
@@ -173,7 +170,8 @@ class TestedJoining {
           const float cost = cost_of(border.heights, options_.quantile,
                                      std::min(joining_.area(a), joining_.area(b)), least_area);
           const float width = std::min(width_of(a), width_of(b));
-          return width < options_.thin ? cost * width * width / (options_.thin * options_.thin) : cost;
+          return width < options_.thin ? cost * width * width / (options_.thin * options_.thin)
+                                       : cost;
         },
         [&](const auto& join, const TestedBorder& border) {
           this->join(join.into, join.gone, join.height, border);

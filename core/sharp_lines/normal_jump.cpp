@@ -38,8 +38,8 @@ float angle_over_sine(float z) {
   return 1.0F +
          z * (1.0F / 3 +
               z * (2.0F / 15 +
-                   z * (2.0F / 35 +
-                        z * (8.0F / 315 + z * (8.0F / 693 + z * (16.0F / 3003 + z * 16.0F / 6435))))));
+                   z * (2.0F / 35 + z * (8.0F / 315 + z * (8.0F / 693 + z * (16.0F / 3003 +
+                                                                             z * 16.0F / 6435))))));
 }
 
 /// The faces of a window, copied side by side.
@@ -74,7 +74,8 @@ Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& op
   if (!(length > 1e-6F * weight)) return result;
   const Vector3f n = sum / length;
   change.noalias() -= (sum / weight) * moment.transpose();
-  const Vector3f x = (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
+  const Vector3f x =
+      (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
   const Vector3f y = n.cross(x);
   const Vector3f change_x = change * x, change_y = change * y;
   const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),

@@ -11,13 +11,13 @@ namespace arris {
 
 /// Lengths in mean edges, angles in degrees.
 struct NormalJumpOptions {
-  float reach = 4.0F;       // faces nearer than this to the place are looked at
-  float near = 0.5F;        // across the line, the strip about it that the rounding spoils
-  float far = 3.5F;         // across the line, where the sides end
-  float across = 2.2F;      // spread of the weights across the line
-  float along = 3.0F;       // and along it: pooling along a line is what noise cannot follow
-  float ridge = 0.1F;       // holds the slope of a side down where its faces lie at one distance
-  float most_turn = 75.0F;  // faces turned farther from the mean are another side of the part
+  float reach = 4.0F;        // faces nearer than this to the place are looked at
+  float near = 0.5F;         // across the line, the strip about it that the rounding spoils
+  float far = 3.5F;          // across the line, where the sides end
+  float across = 2.2F;       // spread of the weights across the line
+  float along = 3.0F;        // and along it: pooling along a line is what noise cannot follow
+  float ridge = 0.1F;        // holds the slope of a side down where its faces lie at one distance
+  float most_turn = 75.0F;   // faces turned farther from the mean are another side of the part
   float least_slant = 0.6F;  // cosine across the line from which an edge counts as lying along it
 };
 

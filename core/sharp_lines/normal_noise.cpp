@@ -54,7 +54,8 @@ std::vector<Vector3f> filter_normals(const Mesh& mesh, const FaceTable& table,
     }
     starts[f + 1] = static_cast<std::uint32_t>(beside.size());
   }
-  const auto spread = static_cast<float>(sum / std::max<double>(1.0, static_cast<double>(beside.size())));
+  const auto spread =
+      static_cast<float>(sum / std::max<double>(1.0, static_cast<double>(beside.size())));
   std::vector<float> weight(beside.size());
   parallel_for(weight.size(), [&](std::size_t k) {
     const float d = distance[k] / spread;

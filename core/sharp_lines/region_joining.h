@@ -23,7 +23,8 @@ class RegionJoining {
 
   /// The border between two different regions; made where there is none.
   Border& border(std::uint32_t a, std::uint32_t b) {
-    const auto [it, fresh] = neighbours_[a].try_emplace(b, static_cast<std::uint32_t>(borders_.size()));
+    const auto [it, fresh] =
+        neighbours_[a].try_emplace(b, static_cast<std::uint32_t>(borders_.size()));
     if (fresh) {
       neighbours_[b].emplace(a, it->second);
       borders_.push_back({});
@@ -121,7 +122,7 @@ class RegionJoining {
 /// Length of border by height, and its quantiles. Additive.
 class HeightHistogram {
  public:
-  static constexpr float width = 2.5F;      // degrees a bin
+  static constexpr float width = 2.5F;     // degrees a bin
   static constexpr std::size_t bins = 72;  // up to 180
 
   void add(float height, float length) {

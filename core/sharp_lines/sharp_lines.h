@@ -33,7 +33,7 @@ struct SharpLineOptions {
   double min_length = 0.0;               // isolated lines shorter than this go; 0 keeps them
   // Edges between parallel lines of which the weaker goes; 0 keeps both; walk.
   int parallel_distance = 1;
-  double bridge_gap = 0.0;    // loose ends no farther apart than this are joined; 0 joins none
+  double bridge_gap = 0.0;  // loose ends no farther apart than this are joined; 0 joins none
 };
 
 /// True for an exterior angle (radians, signed) that an edge of a sharp line may have.

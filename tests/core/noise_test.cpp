@@ -13,7 +13,6 @@
 #include <map>
 #include <string>
 
-#include "core/base/random.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
 #include "tests/support/meshes.h"
@@ -22,30 +21,6 @@ namespace arris {
 namespace {
 
 using namespace arris::testing;
-
-/// Every vertex moved by `share` mean edges times a Gaussian number along its normal.
-Triangles noisy(const Triangles& mesh, double share, std::uint64_t seed) {
-  Random random(seed);
-  Triangles result = mesh;
-  const MeshPtr clean = mesh_of(mesh);
-  std::vector<Point> normals(mesh.points.size(), Point::Zero());
-  for (const Triangle& t : mesh.triangles) {
-    const Point& a = mesh.points[t[0]];
-    const Point normal = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
-    for (const VertexId v : t) normals[v] += normal;
-  }
-  for (VertexId v = 0; v < normals.size(); ++v)
-    result.points[v] +=
-        share * clean->mean_edge_length() * random.gaussian() * normals[v].normalized();
-  return result;
-}
-
-Triangles moved(const Triangles& mesh, double scale, const Eigen::Matrix3d& turn,
-                const Point& shift) {
-  Triangles result = mesh;
-  for (Point& p : result.points) p = scale * (turn * p) + shift;
-  return result;
-}
 
 Triangles scaled(const Triangles& mesh, double scale) {
   Triangles result = mesh;
@@ -296,7 +271,8 @@ TEST(Defaults, AreLengthsOfThePartAndNotRounded) {
   EXPECT_EQ(simplified.simplify->parameters["error_zone"], 3.0 * estimate_noise(mesh));
   EXPECT_EQ(simplified.simplify->parameters["max_edge_length"], 2.0 * mesh.mean_edge_length());
   const Document lined = applied(document, {"find_sharp_lines"});
-  EXPECT_EQ(lined.find_sharp_lines->parameters["min_length"], default_min_length(mesh, LineMethod::normal_jump));
+  EXPECT_EQ(lined.find_sharp_lines->parameters["min_length"],
+            default_min_length(mesh, LineMethod::normal_jump));
 }
 
 TEST(Defaults, ReadLikeNumbersWhereTheyAreShown) {

@@ -257,8 +257,8 @@ TEST(SharpLines, CancelledWorkIsAnErrorThatSaysSo) {
   const Part part(divided_cube(10.0, 4));
   std::stop_source stop;
   stop.request_stop();
-  const auto result =
-      find_sharp_edges(*part.mesh, *part.curvatures, nullptr, {}, Context(nullptr, stop.get_token()));
+  const auto result = find_sharp_edges(*part.mesh, *part.curvatures, nullptr, {},
+                                       Context(nullptr, stop.get_token()));
   ASSERT_FALSE(result);
   EXPECT_TRUE(result.error().cancelled);
 }

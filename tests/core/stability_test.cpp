@@ -56,8 +56,8 @@ TEST(LineStability, EachPointIsWhatTheStepFinds) {
   EXPECT_EQ(curve.points[2].threshold, 40.0);
   for (const StabilityPoint& point : curve.points) {
     options.angle = point.threshold;
-    const std::vector<Line> lines =
-        derive_lines(*mesh, *curvatures, value_of(find_sharp_edges(*mesh, *curvatures, nullptr, options)));
+    const std::vector<Line> lines = derive_lines(
+        *mesh, *curvatures, value_of(find_sharp_edges(*mesh, *curvatures, nullptr, options)));
     double length = 0.0;
     for (const Line& line : lines) length += line.length;
     EXPECT_EQ(point.count, lines.size());
@@ -122,7 +122,8 @@ TEST(Stability, IsTheSameOnOneThreadAndOnTwo) {
 
 TEST(Stability, CanBeCancelled) {
   const Document document = applied(document_of(sample_mould(2.5)), {"find_sharp_lines", {}});
-  const auto lines = line_stability(*document.mesh, *document.curvatures, nullptr, {}, {}, 24, stopped());
+  const auto lines =
+      line_stability(*document.mesh, *document.curvatures, nullptr, {}, {}, 24, stopped());
   ASSERT_FALSE(lines);
   EXPECT_TRUE(lines.error().cancelled);
   const auto partitions = partition_stability(*document.mesh, document.curvatures->kabs,

@@ -153,29 +153,32 @@ TEST(ExtendLine, GrowsUnderItsOwnAngleAndShrinksWithIt) {
     return Point(x, y, -slope * std::abs(x - 20.0));
   };
   const Document opened = document_of(testing::shaped_lattice(40.0, 1.0, place));
-  const Document document =
-      applied(opened, {"find_sharp_lines", {{"angle", 40.0}, {"min_length", 0.0}}});
-  ASSERT_GE(document.lines.lines.size(), 1u);
-  const std::uint32_t id = longest_line(document);
-  double before = document.lines.find(id)->length;
-  for (const double angle : {30.0, 20.0, 12.0}) {
-    const Document longer = applied(document, {"extend_line", {{"line", id}, {"angle", angle}}});
-    ASSERT_NE(longer.lines.find(id), nullptr);
-    EXPECT_GT(longer.lines.find(id)->length, before) << angle;
-    before = longer.lines.find(id)->length;
-    expect_invariants(longer);
+  for (const auto& [method, found_at] : {std::pair{"walk", 40.0}, std::pair{"normal_jump", 32.0}}) {
+    const Document document = applied(
+        opened,
+        {"find_sharp_lines", {{"method", method}, {"angle", found_at}, {"min_length", 0.0}}});
+    ASSERT_GE(document.lines.lines.size(), 1u);
+    const std::uint32_t id = longest_line(document);
+    double before = document.lines.find(id)->length;
+    for (const double angle : {30.0, 20.0, 12.0}) {
+      const Document longer = applied(document, {"extend_line", {{"line", id}, {"angle", angle}}});
+      ASSERT_NE(longer.lines.find(id), nullptr);
+      EXPECT_GT(longer.lines.find(id)->length, before) << angle;
+      before = longer.lines.find(id)->length;
+      expect_invariants(longer);
+    }
+    const Document same = applied(document, {"extend_line", {{"line", id}, {"angle", 60.0}}});
+    EXPECT_EQ(sharp_set(same), sharp_set(document));
+    // One end only.
+    const double both =
+        applied(document, {"extend_line", {{"line", id}, {"angle", 20.0}}}).lines.find(id)->length;
+    const double first =
+        applied(document, {"extend_line", {{"line", id}, {"angle", 20.0}, {"ends", "first"}}})
+            .lines.find(id)
+            ->length;
+    EXPECT_LT(first, both);
+    EXPECT_GT(first, document.lines.find(id)->length);
   }
-  const Document same = applied(document, {"extend_line", {{"line", id}, {"angle", 60.0}}});
-  EXPECT_EQ(sharp_set(same), sharp_set(document));
-  // One end only.
-  const double both =
-      applied(document, {"extend_line", {{"line", id}, {"angle", 20.0}}}).lines.find(id)->length;
-  const double first =
-      applied(document, {"extend_line", {{"line", id}, {"angle", 20.0}, {"ends", "first"}}})
-          .lines.find(id)
-          ->length;
-  EXPECT_LT(first, both);
-  EXPECT_GT(first, document.lines.find(id)->length);
 }
 
 TEST(TrimAndMerge, UndoEachOther) {

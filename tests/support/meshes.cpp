@@ -332,4 +332,27 @@ Triangles random_terrain(int n, std::uint64_t seed) {
   return mesh;
 }
 
+Triangles noisy(const Triangles& mesh, double share, std::uint64_t seed) {
+  Random random(seed);
+  Triangles result = mesh;
+  const MeshPtr clean = mesh_of(mesh);
+  std::vector<Point> normals(mesh.points.size(), Point::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const Point& a = mesh.points[t[0]];
+    const Point normal = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
+    for (const VertexId v : t) normals[v] += normal;
+  }
+  for (VertexId v = 0; v < normals.size(); ++v)
+    result.points[v] +=
+        share * clean->mean_edge_length() * random.gaussian() * normals[v].normalized();
+  return result;
+}
+
+Triangles moved(const Triangles& mesh, double scale, const Eigen::Matrix3d& turn,
+                const Point& shift) {
+  Triangles result = mesh;
+  for (Point& p : result.points) p = scale * (turn * p) + shift;
+  return result;
+}
+
 }  // namespace arris::testing

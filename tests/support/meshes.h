@@ -16,8 +16,8 @@ struct Triangles {
 /// Builds or fails the test at once.
 MeshPtr mesh_of(const Triangles& triangles);
 
-Triangles cube(double size = 1.0);                          ///< 8 vertices, 12 faces.
-Triangles divided_cube(double size, int divisions);         ///< Each side a divisions^2 grid.
+Triangles cube(double size = 1.0);                   ///< 8 vertices, 12 faces.
+Triangles divided_cube(double size, int divisions);  ///< Each side a divisions^2 grid.
 /// Corner (vertex 0) of a box with its three square sides open at the far ends; `sectors` holds,
 /// for each of the three right angles, into how many equal angles it is split.
 Triangles box_corner(int sectors_a, int sectors_b, int sectors_c);
@@ -43,5 +43,11 @@ Triangles noisy_plane(double size, double h, double sigma, double jitter, std::u
 Triangles ellipsoid(double a, double b, double c, int subdivisions);
 /// A random bumpy terrain, open, for property tests.
 Triangles random_terrain(int n, std::uint64_t seed);
+
+/// Every vertex moved by `share` mean edges times a Gaussian number along its normal.
+Triangles noisy(const Triangles& mesh, double share, std::uint64_t seed);
+/// Every point p at scale * turn * p + shift; the faces stay as they are.
+Triangles moved(const Triangles& mesh, double scale, const Eigen::Matrix3d& turn,
+                const Point& shift);
 
 }  // namespace arris::testing

@@ -66,9 +66,9 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
                  : cost == "angle" ? StarCost::angle
                                    : StarCost::area;
   // Again: from the current mesh, as section 4.1 allows later in the chain; found lines stay then.
-  const Stage base = parameters.at("again")
-                         ? Stage{document.mesh, document.curvatures, document.zones, document.evidence}
-                         : stage_before(document, "simplify");
+  const Stage base = parameters.at("again") ? Stage{document.mesh, document.curvatures,
+                                                    document.zones, document.evidence}
+                                            : stage_before(document, "simplify");
   const ChunkedArray<Origin> locked =
       base.mesh == document.mesh ? locked_edges(document, *base.mesh) : ChunkedArray<Origin>();
   Result<Prepared> prepared =

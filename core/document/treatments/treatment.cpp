@@ -152,9 +152,8 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
   bool switched_on = true;
   if (parameters) {
     switched_on = parameters->at("corrections");
-    Result<std::vector<Origin>> found =
-        find_sharp_edges(mesh, curvatures, evidence->get(), line_options_of(*parameters),
-                         context.part(0.9, 1.0));
+    Result<std::vector<Origin>> found = find_sharp_edges(
+        mesh, curvatures, evidence->get(), line_options_of(*parameters), context.part(0.9, 1.0));
     if (!found) return tl::unexpected<Error>(found.error());
     edges = std::move(*found);
   }
@@ -231,7 +230,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
   if (corrected) {
     const Result<LineEvidencePtr> evidence = line_evidence_of(document, context);
     if (!evidence) return tl::unexpected<Error>(evidence.error());
-    Ground ground{mesh, *document.curvatures, values,           document.lines, {}, {},
+    Ground ground{mesh, *document.curvatures, values,   document.lines, {}, {},
                   1,    options.criterion,    *evidence};
     ground.partitions = number_partitions(mesh, *found, {}, ground.next_id);
     ground.boundaries =
@@ -255,8 +254,8 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
 SharpLineOptions line_options_of(const nlohmann::json& parameters) {
   SharpLineOptions options;
   const std::string convexity = parameters.value("convexity", "any");
-  options.method = parameters.value("method", "walk") == "walk" ? LineMethod::walk
-                                                                  : LineMethod::normal_jump;
+  options.method =
+      parameters.value("method", "walk") == "walk" ? LineMethod::walk : LineMethod::normal_jump;
   options.angle = parameters.value("angle", options.angle);
   options.max_angle = parameters.value("max_angle", options.max_angle);
   options.convexity = convexity == "convex"    ? Convexity::convex

@@ -90,7 +90,8 @@ Result<Found> jump_lines(const ScanPtr& scan, const Idea& idea) {
 constexpr Idea ideas[] = {
     {"no extrapolation", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.jump.ridge = 1e6F; }},
     {"no slant", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.jump.least_slant = 1e-3F; }},
-    {"no first cut", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.first_cut = 5.0F; }},
+    {"no first cut",
+     [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.first_cut = 5.0F; }},
     {"no ratio test",
      [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.test.least_ratio = 0.0F; }},
     {"no rule for narrow sides",
