@@ -17,12 +17,17 @@ class StepsPresenter : public QObject {
 
   /// Runs a step with the values in its card.
   void run(const QString& step);
-  /// Runs again what an earlier step has put out of date; in a fresh part, what was never run.
+  /// Runs again what an earlier step has put out of date; in a fresh part, sharp lines and
+  /// partitions.
   void run_out_of_date();
+  /// The steps of figure 2 from the scan on, with defaults from the part; those that were run
+  /// besides (swaps, smoothing) run again in their place.
+  void run_paper_flow();
   bool anything_out_of_date() const;
 
  private:
   void refresh();
+  StepCard lines_card();
   QString swaps_text(const MeshPtr& before, const MeshPtr& after);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
 
@@ -34,6 +39,12 @@ class StepsPresenter : public QObject {
     QString text;
   };
   std::vector<Swaps> swaps_;
+  /// Defaults of find_sharp_lines by each method, for the scan they come from.
+  struct LineDefaults {
+    MeshPtr mesh;
+    nlohmann::json by_jump, by_walk;
+  };
+  LineDefaults line_defaults_;
 };
 
 }  // namespace arris::ui
