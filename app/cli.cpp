@@ -499,8 +499,9 @@ int main(int argc, char** argv) {
                        "How lines are found: normal_jump (default of the flow scan) or walk (of "
                        "the flow paper)")
           ->check(CLI::IsMember({"normal_jump", "walk"}));
+  bool no_prepare = false;
   CLI::Option* no_prepare_option =
-      segment_command->add_flag("--no-prepare", "The same as --flow scan");
+      segment_command->add_flag("--no-prepare", no_prepare, "The same as --flow scan");
   CLI::Option* swap_option = segment_command->add_flag(
       "--swap", segmentation.swap, "Swap edges before finding lines; --flow paper");
   segment_command

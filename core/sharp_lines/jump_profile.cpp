@@ -11,12 +11,17 @@ namespace {
 
 using Eigen::Vector3f;
 constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
-constexpr int smoothing = 3;  // places on either side over which a line is smoothed
+// As in the border test (border_test.cpp).
+constexpr int smoothing = 3;             // places on either side over which a line is smoothed
+constexpr std::ptrdiff_t own_reach = 7;  // places along the line whose faces a place has
+constexpr float far_side = 2.0F;  // beyond this a side shows whether it is wide enough for a slope
+constexpr float least_own = 0.35F;  // share of it that has to be its own
 constexpr auto bins = static_cast<std::size_t>(2.0F * JumpProfile::reach / JumpProfile::bin);
 
 /// A place on the line that the profile goes across.
 struct Place {
   HalfEdgeId half_edge = no_id;
+  std::ptrdiff_t index = 0;  // on the line
   Vector3f middle, tangent;
   float along = 0.0F;      // spread of the weights along the line, mean edges
   bool is_on_line = true;  // its two faces lie on either side of the line
@@ -51,6 +56,12 @@ class Line {
     i = std::clamp<std::ptrdiff_t>(i, 0, size());
     return i == size() ? mesh_.to(path_.back()) : mesh_.from(at(i));
   }
+  /// Where an edge is on the line; no_place: elsewhere.
+  std::ptrdiff_t place_of(EdgeId e) const {
+    const auto found = std::ranges::find(path_, e, [](HalfEdgeId h) { return h >> 1; });
+    return found == path_.end() ? no_place : found - path_.begin();
+  }
+  static constexpr std::ptrdiff_t no_place = -1000;
   /// Another part of the surface begins there.
   bool is_barrier(EdgeId e) const {
     const BorderEdge* edge = candidates_.find(e);
@@ -84,6 +95,7 @@ Place place_on(const FaceTable& table, const Line& line, std::ptrdiff_t i,
                const BorderTestOptions& options) {
   Place place;
   place.half_edge = line.at(i);
+  place.index = i;
   place.middle = Vector3f::Zero();
   for (std::ptrdiff_t k = 1 - smoothing; k <= smoothing; ++k)
     place.middle += table.points[line.vertex(i + k)];
@@ -177,6 +189,7 @@ class Sums {
     if (!(up.norm() > 1e-6F)) return;
     up.normalize();
     const Vector3f leftwards = up.cross(place.tangent);
+    const std::vector<EdgeId> barriers = barriers_among(all);
     for (const FaceId f : all) {
       const Vector3f d = table_.faces[f].centre - place.middle;
       const float y = d.dot(place.tangent);
@@ -197,7 +210,13 @@ class Sums {
         bin[1] += w * (positive ? t : -t);
         bin[2] += w * turn;
       }
-      if (!own || t < options_.near || t > options_.far) continue;
+      if (!own || !place.is_on_line || t < options_.near || t > options_.far) continue;
+      const bool is_nearest = answers_for(place, table_.faces[f].centre, barriers);
+      if (t > far_side) {
+        all_far_[positive] += w;
+        if (is_nearest) own_far_[positive] += w;
+      }
+      if (!is_nearest) continue;
       std::array<float, 5>& s = sides_[positive];
       s[0] += w;
       s[1] += w * t;
@@ -219,16 +238,47 @@ class Sums {
       JumpProfile::Side& side = result.sides[k];
       const float distance = s[1] / s[0];
       side.fitted = true;
+      side.distance = distance;
       side.mean = s[3] / s[0];
       // As the border test: a side whose faces lie at one distance has no slope.
       const float spread = s[2] / s[0] - distance * distance;
       side.slope = spread < 0.05F ? 0.0F : (s[4] / s[0] - distance * side.mean) / (spread + 0.03F);
+      // Too narrow for a slope: another line is near, and beyond it another surface.
+      if (own_far_[k] < least_own * all_far_[k] + 1e-12F) {
+        side.slope = 0.0F;
+        side.mean *= options_.narrow;
+      }
       side.at_line = side.mean - side.slope * distance;
     }
     return result;
   }
 
  private:
+  std::vector<EdgeId> barriers_among(const std::vector<FaceId>& faces) const {
+    std::vector<EdgeId> barriers;
+    for (const FaceId f : faces)
+      for (const EdgeId e : table_.sides[f])
+        if (line_.is_barrier(e)) barriers.push_back(e);
+    std::ranges::sort(barriers);
+    barriers.erase(std::unique(barriers.begin(), barriers.end()), barriers.end());
+    return barriers;
+  }
+
+  /// Whether the nearest line to a point is this one, and near the place along it.
+  bool answers_for(const Place& place, const Vector3f& point,
+                   const std::vector<EdgeId>& barriers) const {
+    float least = 1e9F;
+    EdgeId nearest = no_id;
+    for (const EdgeId e : barriers) {
+      const auto [a, b] = mesh_.edge(e);
+      const float distance = ((table_.points[a] + table_.points[b]) / 2.0F - point).norm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = e;
+    }
+    return nearest == no_id || std::abs(line_.place_of(nearest) - place.index) <= own_reach;
+  }
+
   void grow_side(const Place& place, const Vector3f& leftwards, FaceId seed, int sign,
                  std::unordered_map<FaceId, int>& side_of) const {
     constexpr float slack = 0.5F;  // a line bends a little
@@ -253,7 +303,8 @@ class Sums {
   const Line& line_;
   const BorderTestOptions& options_;
   std::array<std::array<float, 3>, bins> bins_{};  // weight, distance, turn
-  std::array<std::array<float, 5>, 2> sides_{};    // weight, t, t^2, turn, t * turn
+  std::array<float, 2> own_far_{}, all_far_{};
+  std::array<std::array<float, 5>, 2> sides_{};  // weight, t, t^2, turn, t * turn
 };
 
 }  // namespace
@@ -267,9 +318,10 @@ JumpProfile profile_across(const Mesh& mesh, const FaceTable& table,
                            const std::vector<Vector3f>& normals, const CandidateGraph& candidates,
                            EdgeId e, const BorderTestOptions& options) {
   if (mesh.is_border_edge(e)) return {};
-  const Line line(mesh, candidates, e, options.pooled + smoothing + 1);
+  const Line line(mesh, candidates, e, options.pooled + static_cast<int>(own_reach));
   Sums sums(mesh, table, normals, line, options);
-  if (!candidates.find(e)) {
+  const BorderEdge* border = candidates.find(e);
+  if (!border) {
     sums.add(place_off(mesh, table, normals, e, options), 1.0F);
     return sums.profile();
   }
@@ -279,7 +331,19 @@ JumpProfile profile_across(const Mesh& mesh, const FaceTable& table,
     sums.add(place_on(table, line, i, options),
              1.0F - static_cast<float>(std::abs(k)) / static_cast<float>(options.pooled + 1));
   }
-  return sums.profile();
+  JumpProfile result = sums.profile();
+  if (result.fitted() && !border->exact) {
+    const float turned = (border->place.turn - result.turn()) / 2.0F;
+    const float jumped =
+        (border->place.jump - (result.sides[1].at_line - result.sides[0].at_line)) / 2.0F;
+    for (std::size_t k = 0; k < 2; ++k) {
+      JumpProfile::Side& side = result.sides[k];
+      side.mean += k == 1 ? turned : -turned;
+      side.at_line += k == 1 ? jumped : -jumped;
+      side.slope = (side.mean - side.at_line) / std::max(side.distance, options.near);
+    }
+  }
+  return result;
 }
 
 }  // namespace arris

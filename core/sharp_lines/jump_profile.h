@@ -21,12 +21,13 @@ struct JumpProfile {
     float distance = 0.0F;  ///< Mean edges, -reach to reach.
     float turn = 0.0F;      ///< Degrees, -180 to 180, of the normals from the mean of both sides.
   };
-  /// The straight line through one side, as the border test fits it.
+  /// The straight line through one side by which the border test judges.
   struct Side {
-    bool fitted = false;   ///< False: too few faces.
-    float at_line = 0.0F;  ///< Degrees at distance 0,
-    float slope = 0.0F;    ///< and how many more for each mean edge away from it.
-    float mean = 0.0F;     ///< Degrees: of the faces that it goes through.
+    bool fitted = false;    ///< False: too few faces.
+    float at_line = 0.0F;   ///< Degrees at distance 0,
+    float slope = 0.0F;     ///< and how many more for each mean edge away from it.
+    float mean = 0.0F;      ///< Degrees: of the faces that it goes through,
+    float distance = 0.0F;  ///< and their mean distance, mean edges, 0 or more.
   };
 
   std::vector<Dot> dots;          ///< By increasing distance; bins without a face are left out.
@@ -41,10 +42,12 @@ struct JumpProfile {
 };
 
 /// The profile across an edge. On a candidate the line is followed as the border test follows it
-/// and what lies along it is pooled; elsewhere it goes across the way in which the normals turn
-/// least. Only faces joined to the edge over sides count; the fit goes no farther than the next
-/// candidate that is at least as strong. `normals`: per face, those that the candidates were found
-/// by. No dots on the border of the scan. Looks at the neighbourhood only.
+/// and what lies along it is pooled; its lines are fitted as the test fits them, between candidates
+/// at least as strong, and leave the very jump and turn that the test noted for this place (which
+/// it measured while weaker borders beside it were still there). Off the candidates nothing is
+/// tested: the profile goes across the way in which the normals turn least, and has no lines. Only
+/// faces joined to the edge over sides count. `normals`: per face, those that the candidates were
+/// found by. No dots on the border of the scan. Looks at the neighbourhood only.
 JumpProfile profile_across(const Mesh& mesh, const FaceTable& table,
                            const std::vector<Eigen::Vector3f>& normals,
                            const CandidateGraph& candidates, EdgeId e,
