@@ -23,15 +23,14 @@ const std::array<FieldInfo, field_count>& field_table() {
       {Field::normal_jump, "Normal jump", "°",
        "How far the mean normal turns at once across an edge, above what the surface beside it "
        "turns; positive where convex",
-       edge, true, false, false},
+       edge, true},
       {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", vertex,
        false, true},
       {Field::deviation, "Deviation", "% of zone",
-       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face,
-       false, false, false},
+       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face},
       {Field::face_quality, "Face quality", "",
        "Twice the inscribed over the circumscribed radius: 1 for equilateral faces, 0 for slivers",
-       face, false, false, false},
+       face},
   }};
   return table;
 }

@@ -26,8 +26,7 @@ struct FieldInfo {
   std::string_view meaning;  ///< One sentence.
   Element element = Element::vertex;
   bool is_signed = false;
-  bool is_class = false;     ///< Values are class numbers (Shape).
-  bool is_curvature = true;  ///< Told by Curvatures alone; the others need the document.
+  bool is_class = false;  ///< Values are class numbers (Shape).
 };
 
 /// All fields in the order of the enumeration.

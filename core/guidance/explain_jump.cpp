@@ -42,14 +42,11 @@ Group group_of(const Mesh& mesh, const CandidateGraph& candidates,
   return group;
 }
 
-/// Normals as the evidence was gathered by.
-std::vector<Eigen::Vector3f> normals_of(const Mesh& mesh, const FaceTable& table, float noise) {
+/// Normals as the evidence was gathered by: none where those are the faces' own.
+std::vector<Eigen::Vector3f> normals_of(const Mesh& mesh, float noise) {
   const LineEvidenceOptions options;
-  if (noise > options.harsh && options.filter.rounds > 0)
-    return filter_normals(mesh, table, options.filter, {});
-  std::vector<Eigen::Vector3f> normals(table.size());
-  for (std::size_t f = 0; f < normals.size(); ++f) normals[f] = table.faces[f].normal;
-  return normals;
+  if (noise <= options.harsh || options.filter.rounds == 0) return {};
+  return filter_normals(mesh, FaceTable(mesh), options.filter, {});
 }
 
 }  // namespace
@@ -66,9 +63,8 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     result.failed = "the scan ends at this edge";
     return result;
   }
-  const FaceTable table(mesh);
   result.profile =
-      profile_across(mesh, table, normals_of(mesh, table, evidence.noise), evidence.candidates, e);
+      profile_across(mesh, evidence.candidates, e, normals_of(mesh, evidence.noise));
   const std::string threshold = degrees_text(options.angle);
   const BorderEdge* border = evidence.candidates.find(e);
   const double here = std::abs(evidence.jump[e]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace arris {
 
@@ -17,6 +18,63 @@ constexpr std::ptrdiff_t own_reach = 7;  // places along the line whose faces a 
 constexpr float far_side = 2.0F;  // beyond this a side shows whether it is wide enough for a slope
 constexpr float least_own = 0.35F;  // share of it that has to be its own
 constexpr auto bins = static_cast<std::size_t>(2.0F * JumpProfile::reach / JumpProfile::bin);
+
+/// The faces about an edge as they are asked for, in mean edges from its middle.
+class Surroundings {
+ public:
+  Surroundings(const Mesh& mesh, const std::vector<Vector3f>& normals, EdgeId e)
+      : mesh_(mesh),
+        normals_(normals),
+        unit_(mesh.mean_edge_length() > 0.0 ? mesh.mean_edge_length() : 1.0),
+        middle_((mesh.point(mesh.edge(e)[0]) + mesh.point(mesh.edge(e)[1])) / 2.0) {}
+
+  const FaceTable::Face& face(FaceId f) {
+    const auto [known, fresh] = faces_.try_emplace(f);
+    if (!fresh) return known->second;
+    const auto [a, b, c] = mesh_.triangle(f);
+    const Point normal =
+        (mesh_.point(b) - mesh_.point(a)).cross(mesh_.point(c) - mesh_.point(a)) / (unit_ * unit_);
+    const double twice = normal.norm();
+    known->second.centre = (point(a) + point(b) + point(c)) / 3.0F;
+    known->second.normal = !normals_.empty() ? normals_[f]
+                           : twice > 0.0     ? Vector3f((normal / twice).cast<float>())
+                                             : Vector3f(Vector3f::Zero());
+    known->second.area = static_cast<float>(twice / 2.0);
+    return known->second;
+  }
+  Vector3f point(VertexId v) const { return ((mesh_.point(v) - middle_) / unit_).cast<float>(); }
+
+  /// Faces with centres within `radius` of a point, joined over sides to a half-edge's two, over
+  /// which `admits(g, side)` lets into face g.
+  template <class Admits>
+  std::vector<FaceId> grow(std::vector<FaceId> front, const Vector3f& middle, float radius,
+                           const Admits& admits) {
+    std::unordered_set<FaceId> seen(front.begin(), front.end());
+    for (std::size_t i = 0; i < front.size() && i < FaceWindow::most_faces; ++i) {
+      HalfEdgeId h = mesh_.face_half_edge(front[i]);
+      for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+        const FaceId g = mesh_.face(Mesh::opposite(h));
+        if (g == no_id || seen.contains(g) || (face(g).centre - middle).norm() >= radius ||
+            !admits(g, h >> 1))
+          continue;
+        seen.insert(g);
+        front.push_back(g);
+      }
+    }
+    return front;
+  }
+  std::vector<FaceId> about(HalfEdgeId h, const Vector3f& middle, float radius) {
+    return grow({mesh_.face(h), mesh_.face(Mesh::opposite(h))}, middle, radius,
+                [](FaceId, EdgeId) { return true; });
+  }
+
+ private:
+  const Mesh& mesh_;
+  const std::vector<Vector3f>& normals_;
+  const double unit_;
+  const Point middle_;
+  std::unordered_map<FaceId, FaceTable::Face> faces_;
+};
 
 /// A place on the line that the profile goes across.
 struct Place {
@@ -91,17 +149,17 @@ class Line {
 };
 
 /// As BorderTest::sum_sides() places itself.
-Place place_on(const FaceTable& table, const Line& line, std::ptrdiff_t i,
+Place place_on(const Surroundings& near, const Line& line, std::ptrdiff_t i,
                const BorderTestOptions& options) {
   Place place;
   place.half_edge = line.at(i);
   place.index = i;
   place.middle = Vector3f::Zero();
   for (std::ptrdiff_t k = 1 - smoothing; k <= smoothing; ++k)
-    place.middle += table.points[line.vertex(i + k)];
+    place.middle += near.point(line.vertex(i + k));
   place.middle /= static_cast<float>(2 * smoothing);
   const auto between = [&](std::ptrdiff_t a, std::ptrdiff_t b) -> Vector3f {
-    return table.points[line.vertex(b)] - table.points[line.vertex(a)];
+    return near.point(line.vertex(b)) - near.point(line.vertex(a));
   };
   place.tangent = between(i - smoothing, i + smoothing + 1).normalized();
   const Vector3f before = between(i - smoothing - 1, i + 1), after = between(i, i + smoothing + 2);
@@ -114,36 +172,28 @@ Place place_on(const FaceTable& table, const Line& line, std::ptrdiff_t i,
   return place;
 }
 
-/// Faces within `radius` of a place, joined to its edge over sides.
-std::vector<FaceId> faces_about(const Mesh& mesh, const FaceTable& table, HalfEdgeId h,
-                                const Vector3f& middle, float radius) {
-  FaceWindow window(table);
-  return window.grow(std::array{mesh.face(h), mesh.face(Mesh::opposite(h))}, middle, radius);
-}
-
 /// Off the candidates: along the way in which the normals turn least, as the normal jump has it.
-Place place_off(const Mesh& mesh, const FaceTable& table, const std::vector<Vector3f>& normals,
-                EdgeId e, const BorderTestOptions& options) {
+Place place_off(const Mesh& mesh, Surroundings& near, EdgeId e, const BorderTestOptions& options) {
   constexpr float radius = 4.0F;
   Place place;
   place.half_edge = 2 * e;
   const auto [a, b] = mesh.edge(e);
-  place.middle = (table.points[a] + table.points[b]) / 2.0F;
+  place.middle = (near.point(a) + near.point(b)) / 2.0F;
   place.along = options.along;
   place.is_on_line = false;
-  const std::vector<FaceId> faces = faces_about(mesh, table, 2 * e, place.middle, radius);
   Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
   float weight = 0.0F;
   Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
-  for (const FaceId f : faces) {
-    const Vector3f d = table.faces[f].centre - place.middle;
-    const float w = table.faces[f].area * std::exp(-0.5F * d.squaredNorm());
-    sum += w * normals[f];
+  for (const FaceId f : near.about(2 * e, place.middle, radius)) {
+    const FaceTable::Face& face = near.face(f);
+    const Vector3f d = face.centre - place.middle;
+    const float w = face.area * std::exp(-0.5F * d.squaredNorm());
+    sum += w * face.normal;
     weight += w;
     moment += w * d;
-    change += w * normals[f] * d.transpose();
+    change += w * face.normal * d.transpose();
   }
-  place.tangent = (table.points[b] - table.points[a]).normalized();
+  place.tangent = (near.point(b) - near.point(a)).normalized();
   if (!(sum.norm() > 1e-6F * weight)) return place;
   change -= (sum / weight) * moment.transpose();
   const Vector3f n = sum.normalized();
@@ -160,30 +210,30 @@ Place place_off(const Mesh& mesh, const FaceTable& table, const std::vector<Vect
 /// Sums over faces about all places that are pooled.
 class Sums {
  public:
-  Sums(const Mesh& mesh, const FaceTable& table, const std::vector<Vector3f>& normals,
-       const Line& line, const BorderTestOptions& options)
-      : mesh_(mesh), table_(table), normals_(normals), line_(line), options_(options) {}
+  Sums(const Mesh& mesh, Surroundings& near, const Line& line, const BorderTestOptions& options)
+      : mesh_(mesh), near_(near), line_(line), options_(options) {}
 
   void add(const Place& place, float weight) {
     const FaceId left = mesh_.face(place.half_edge);
     const FaceId right = mesh_.face(Mesh::opposite(place.half_edge));
     if (left == no_id || right == no_id) return;
     const std::vector<FaceId> all =
-        faces_about(mesh_, table_, place.half_edge, place.middle, JumpProfile::reach + 1.0F);
+        near_.about(place.half_edge, place.middle, JumpProfile::reach + 1.0F);
     // Which side a face is on: that which it is joined to without crossing a barrier.
     std::unordered_map<FaceId, int> side_of;
-    const Vector3f flat = (normals_[left] + normals_[right]).normalized().cross(place.tangent);
+    const Vector3f flat =
+        (near_.face(left).normal + near_.face(right).normal).normalized().cross(place.tangent);
     if (place.is_on_line) {
       for (const auto& [seed, sign] : {std::pair{right, -1}, std::pair{left, 1}})
         grow_side(place, flat, seed, sign, side_of);
     } else {
       for (const FaceId f : all)
-        side_of[f] = (table_.faces[f].centre - place.middle).dot(flat) > 0.0F ? 1 : -1;
+        side_of[f] = (near_.face(f).centre - place.middle).dot(flat) > 0.0F ? 1 : -1;
     }
     std::array<Vector3f, 2> mean{Vector3f::Zero(), Vector3f::Zero()};
     for (const auto& [f, sign] : side_of)
-      if ((table_.faces[f].centre - place.middle).norm() < options_.far + 0.5F)
-        mean[sign > 0] += table_.faces[f].area * normals_[f];
+      if ((near_.face(f).centre - place.middle).norm() < options_.far + 0.5F)
+        mean[sign > 0] += near_.face(f).area * near_.face(f).normal;
     Vector3f up = mean[0].normalized() + mean[1].normalized();
     up -= place.tangent * up.dot(place.tangent);
     if (!(up.norm() > 1e-6F)) return;
@@ -191,16 +241,16 @@ class Sums {
     const Vector3f leftwards = up.cross(place.tangent);
     const std::vector<EdgeId> barriers = barriers_among(all);
     for (const FaceId f : all) {
-      const Vector3f d = table_.faces[f].centre - place.middle;
+      const Vector3f d = near_.face(f).centre - place.middle;
       const float y = d.dot(place.tangent);
       if (std::abs(y) > 2.0F * place.along) continue;
       const float t = (d - y * place.tangent).norm();
       const auto known = side_of.find(f);
       const bool own = known != side_of.end();
       const bool positive = own ? known->second > 0 : d.dot(leftwards) > 0.0F;
-      const float turn = std::atan2(normals_[f].dot(leftwards), normals_[f].dot(up)) * degrees;
-      const float w =
-          weight * table_.faces[f].area * std::exp(-y * y / (place.along * place.along));
+      const float turn =
+          std::atan2(near_.face(f).normal.dot(leftwards), near_.face(f).normal.dot(up)) * degrees;
+      const float w = weight * near_.face(f).area * std::exp(-y * y / (place.along * place.along));
       if (!(w > 0.0F)) continue;
       if (t < JumpProfile::reach) {
         const float at = (positive ? t : -t) + JumpProfile::reach;
@@ -211,7 +261,7 @@ class Sums {
         bin[2] += w * turn;
       }
       if (!own || !place.is_on_line || t < options_.near || t > options_.far) continue;
-      const bool is_nearest = answers_for(place, table_.faces[f].centre, barriers);
+      const bool is_nearest = answers_for(place, near_.face(f).centre, barriers);
       if (t > far_side) {
         all_far_[positive] += w;
         if (is_nearest) own_far_[positive] += w;
@@ -256,9 +306,11 @@ class Sums {
  private:
   std::vector<EdgeId> barriers_among(const std::vector<FaceId>& faces) const {
     std::vector<EdgeId> barriers;
-    for (const FaceId f : faces)
-      for (const EdgeId e : table_.sides[f])
-        if (line_.is_barrier(e)) barriers.push_back(e);
+    for (const FaceId f : faces) {
+      HalfEdgeId h = mesh_.face_half_edge(f);
+      for (int k = 0; k < 3; ++k, h = mesh_.next(h))
+        if (line_.is_barrier(h >> 1)) barriers.push_back(h >> 1);
+    }
     std::ranges::sort(barriers);
     barriers.erase(std::unique(barriers.begin(), barriers.end()), barriers.end());
     return barriers;
@@ -271,7 +323,7 @@ class Sums {
     EdgeId nearest = no_id;
     for (const EdgeId e : barriers) {
       const auto [a, b] = mesh_.edge(e);
-      const float distance = ((table_.points[a] + table_.points[b]) / 2.0F - point).norm();
+      const float distance = ((near_.point(a) + near_.point(b)) / 2.0F - point).norm();
       if (distance >= least) continue;
       least = distance;
       nearest = e;
@@ -282,24 +334,16 @@ class Sums {
   void grow_side(const Place& place, const Vector3f& leftwards, FaceId seed, int sign,
                  std::unordered_map<FaceId, int>& side_of) const {
     constexpr float slack = 0.5F;  // a line bends a little
-    std::vector<FaceId> front{seed};
-    side_of[seed] = sign;
-    for (std::size_t i = 0; i < front.size() && i < FaceWindow::most_faces; ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const FaceId g = table_.neighbours[front[i]][k];
-        if (g == no_id || side_of.contains(g)) continue;
-        const Vector3f d = table_.faces[g].centre - place.middle;
-        if (d.norm() > options_.far + 2.0F || line_.is_barrier(table_.sides[front[i]][k]) ||
-            static_cast<float>(sign) * d.dot(leftwards) < -slack)
-          continue;
-        side_of[g] = sign;
-        front.push_back(g);
-      }
+    const auto admits = [&](FaceId g, EdgeId side) {
+      const float offset = (near_.face(g).centre - place.middle).dot(leftwards);
+      return !line_.is_barrier(side) && static_cast<float>(sign) * offset >= -slack;
+    };
+    for (const FaceId f : near_.grow({seed}, place.middle, options_.far + 2.0F, admits))
+      side_of.try_emplace(f, sign);
   }
 
   const Mesh& mesh_;
-  const FaceTable& table_;
-  const std::vector<Vector3f>& normals_;
+  Surroundings& near_;
   const Line& line_;
   const BorderTestOptions& options_;
   std::array<std::array<float, 3>, bins> bins_{};  // weight, distance, turn
@@ -314,21 +358,21 @@ float JumpProfile::jump() const {
   return turn() > 0.0F ? std::max(between, 0.0F) : std::min(between, 0.0F);
 }
 
-JumpProfile profile_across(const Mesh& mesh, const FaceTable& table,
-                           const std::vector<Vector3f>& normals, const CandidateGraph& candidates,
-                           EdgeId e, const BorderTestOptions& options) {
+JumpProfile profile_across(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e,
+                           const std::vector<Vector3f>& normals, const BorderTestOptions& options) {
   if (mesh.is_border_edge(e)) return {};
   const Line line(mesh, candidates, e, options.pooled + static_cast<int>(own_reach));
-  Sums sums(mesh, table, normals, line, options);
+  Surroundings near(mesh, normals, e);
+  Sums sums(mesh, near, line, options);
   const BorderEdge* border = candidates.find(e);
   if (!border) {
-    sums.add(place_off(mesh, table, normals, e, options), 1.0F);
+    sums.add(place_off(mesh, near, e, options), 1.0F);
     return sums.profile();
   }
   for (int k = -options.pooled; k <= options.pooled; ++k) {
     const std::ptrdiff_t i = line.own() + k;
     if (i < 0 || i >= line.size()) continue;
-    sums.add(place_on(table, line, i, options),
+    sums.add(place_on(near, line, i, options),
              1.0F - static_cast<float>(std::abs(k)) / static_cast<float>(options.pooled + 1));
   }
   JumpProfile result = sums.profile();

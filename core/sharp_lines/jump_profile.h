@@ -47,10 +47,10 @@ struct JumpProfile {
 /// it measured while weaker borders beside it were still there). Off the candidates nothing is
 /// tested: the profile goes across the way in which the normals turn least, and has no lines. Only
 /// faces joined to the edge over sides count. `normals`: per face, those that the candidates were
-/// found by. No dots on the border of the scan. Looks at the neighbourhood only.
-JumpProfile profile_across(const Mesh& mesh, const FaceTable& table,
-                           const std::vector<Eigen::Vector3f>& normals,
-                           const CandidateGraph& candidates, EdgeId e,
+/// found by; none: the faces' own. No dots on the border of the scan. Looks at the neighbourhood
+/// only.
+JumpProfile profile_across(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e,
+                           const std::vector<Eigen::Vector3f>& normals = {},
                            const BorderTestOptions& options = {});
 
 }  // namespace arris
