@@ -544,9 +544,10 @@ int main(int argc, char** argv) {
         if (*option)
           throw CLI::ValidationError(
               option->get_name(),
-              "it changes the mesh before lines are found, which belongs to --flow paper");
+              "it changes the mesh before lines are found, which only the paper's flow does: add "
+              "--flow paper");
     if (*candidates_option && (method.empty() ? flow != "paper" : method != "walk"))
-      throw CLI::ValidationError("--candidates", "it is of the walk: add --method walk");
+      throw CLI::ValidationError("--candidates", "only the walk uses it: add --method walk");
     for (const std::string& text : intervals) {
       nlohmann::json interval;
       if (!parse_interval(text, interval))

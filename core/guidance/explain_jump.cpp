@@ -63,8 +63,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     result.failed = "the scan ends at this edge";
     return result;
   }
-  result.profile =
-      profile_across(mesh, evidence.candidates, e, normals_of(mesh, evidence.noise));
+  result.profile = profile_across(mesh, evidence.candidates, e, normals_of(mesh, evidence.noise));
   const std::string threshold = degrees_text(options.angle);
   const BorderEdge* border = evidence.candidates.find(e);
   const double here = std::abs(evidence.jump[e]);
@@ -108,7 +107,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     const double jump = std::abs(place.jump), turn = std::abs(place.turn);
     const double least = BorderTestOptions().least_ratio;
     if (turn > 0.0)
-      add({"Jump to turn", jump / turn, least, "", jump >= least * turn,
+      add({"Jump to turn", rounded(jump / turn, 2), least, "", jump >= least * turn,
            "Its sides differ by " + degrees_text(turn) + ", of which " + degrees_text(jump) +
                " lie at the line itself and the rest in what surrounds it; a fillet turns over a "
                "distance."});

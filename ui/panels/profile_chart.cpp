@@ -39,11 +39,11 @@ QColor jump_colour(const QPalette& palette) {
 
 ProfileChart::ProfileChart(QWidget* parent) : QWidget(parent) {
   setAccessibleName(tr("Turn of the surface across the edge"));
-  setToolTip(
-      tr("How the normals turn across the edge, over the distance from it in mean edges. Each dot "
-         "is the mean of the faces in half an edge. The straight lines go through the faces of "
-         "either side, in the shaded strips; what they leave at the edge is the jump. A sharp line "
-         "is a jump, a fillet is two slopes."));
+  setToolTip(tr(
+      "How the normals turn across the edge, over the distance from it in mean edges. Each dot "
+      "is the mean of the faces in half an edge. The straight lines go through the faces of "
+      "either side, in the shaded strips; what they leave at the edge is the jump, what "
+      "the sides turn besides is the surround. A sharp line is a jump, a fillet is two slopes."));
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
 }
 
@@ -136,17 +136,20 @@ void ProfileChart::paintEvent(QPaintEvent*) {
   painter.setPen(QPen(jump_colour(palette()), 4.0, Qt::SolidLine, Qt::FlatCap));
   painter.drawLine(QPointF(x_of(0.0), y_of(middle - half)),
                    QPointF(x_of(0.0), y_of(middle + half)));
-  const QString label = tr("jump %1°").arg(number_text(std::abs(profile_->jump()), 3));
+  // In the corner where the surface is not: a convex one rises to the right.
+  const double top = half >= 0.0 ? plot.bottom() - 2 * line - gap : plot.top() + gap;
+  const auto write = [&](int row, const QColor& colour, const QString& text) {
+    painter.setPen(colour);
+    const double left = x_of(0.0) + 2 * gap;
+    painter.drawText(QRectF(left, top + row * line, plot.right() - left, line),
+                     Qt::AlignLeft | Qt::AlignVCenter, text);
+  };
+  const double surround = profile_->turn() - profile_->jump();
+  write(1, muted, tr("surround %1°").arg(number_text(half >= 0.0 ? surround : -surround, 3)));
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  // Beside the bar, where the surface is not: a convex one rises to the right.
-  const int width = QFontMetrics(bold).horizontalAdvance(label);
-  painter.setPen(jump_colour(palette()));
-  painter.drawText(
-      QRectF(x_of(0.0) + 2 * gap, (half >= 0.0 ? plot.bottom() - line - gap : plot.top() + gap),
-             width + 2, line),
-      Qt::AlignLeft | Qt::AlignVCenter, label);
+  write(0, jump_colour(palette()), tr("jump %1°").arg(number_text(std::abs(profile_->jump()), 3)));
 }
 
 }  // namespace arris::ui
