@@ -202,6 +202,16 @@ void StepsPresenter::run_paper_flow() {
   session_->run(std::move(operations));
 }
 
+const nlohmann::json& StepsPresenter::line_defaults(const char* method) {
+  const Document& document = session_->shown().document;
+  LineDefaults& known = line_defaults_;
+  if (known.scan == document.opened.mesh && known.method == method) return known.parameters;
+  const Result<Operation> resolved = resolve(document, {"find_sharp_lines", {{"method", method}}});
+  known = {document.opened.mesh, method,
+           resolved ? resolved->parameters : nlohmann::json::object()};
+  return known.parameters;
+}
+
 StepCard StepsPresenter::lines_card() {
   const Document& document = session_->shown().document;
   StepCard lines;
@@ -211,19 +221,11 @@ StepCard StepsPresenter::lines_card() {
       tr("Finds the sharp lines of the part: where its mean normal jumps, or by the paper's walk "
          "along edges (section 6).");
   if (document.empty()) return lines;
-  const MeshPtr& scan = document.opened.mesh;
-  if (line_defaults_.mesh != scan) {
-    const auto defaults_by = [&](const char* method) {
-      const Result<Operation> resolved =
-          resolve(document, {"find_sharp_lines", {{"method", method}}});
-      return resolved ? resolved->parameters : nlohmann::json::object();
-    };
-    line_defaults_ = {scan, defaults_by("normal_jump"), defaults_by("walk")};
-  }
   const nlohmann::json p = session_->parameters("find_sharp_lines");
   const bool by_walk = line_options_of(p).method == LineMethod::walk;
-  const nlohmann::json& jump = by_walk ? line_defaults_.by_jump : p;
-  const nlohmann::json& walk = by_walk ? p : line_defaults_.by_walk;
+  const nlohmann::json& other = line_defaults(by_walk ? "normal_jump" : "walk");
+  const nlohmann::json& jump = by_walk ? other : p;
+  const nlohmann::json& walk = by_walk ? p : other;
   lines.state = state_of(document.find_sharp_lines);
   lines.time = seconds_text(session_->seconds_of("find_sharp_lines"));
   // Angles and lengths by one method say nothing about the other.

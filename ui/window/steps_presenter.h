@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <QObject>
@@ -27,6 +28,7 @@ class StepsPresenter : public QObject {
 
  private:
   void refresh();
+  const nlohmann::json& line_defaults(const char* method);
   StepCard lines_card();
   QString swaps_text(const MeshPtr& before, const MeshPtr& after);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
@@ -39,10 +41,11 @@ class StepsPresenter : public QObject {
     QString text;
   };
   std::vector<Swaps> swaps_;
-  /// Defaults of find_sharp_lines by each method, for the scan they come from.
+  /// Defaults of find_sharp_lines by the method that is not in use, for the scan they come from.
   struct LineDefaults {
-    MeshPtr mesh;
-    nlohmann::json by_jump, by_walk;
+    MeshPtr scan;
+    std::string method;
+    nlohmann::json parameters;
   };
   LineDefaults line_defaults_;
 };
