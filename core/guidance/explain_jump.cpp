@@ -42,13 +42,6 @@ Group group_of(const Mesh& mesh, const CandidateGraph& candidates,
   return group;
 }
 
-/// Normals as the evidence was gathered by: none where those are the faces' own.
-std::vector<Eigen::Vector3f> normals_of(const Mesh& mesh, float noise) {
-  const LineEvidenceOptions options;
-  if (noise <= options.harsh || options.filter.rounds == 0) return {};
-  return filter_normals(mesh, FaceTable(mesh), options.filter, {});
-}
-
 }  // namespace
 
 JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
@@ -63,7 +56,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     result.failed = "the scan ends at this edge";
     return result;
   }
-  result.profile = profile_across(mesh, evidence.candidates, e, normals_of(mesh, evidence.noise));
+  result.profile = profile_across(mesh, evidence.candidates, e);
   const std::string threshold = degrees_text(options.angle);
   const BorderEdge* border = evidence.candidates.find(e);
   const double here = std::abs(evidence.jump[e]);

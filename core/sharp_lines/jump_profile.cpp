@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "core/sharp_lines/face_table.h"
+
 namespace arris {
 
 namespace {
@@ -22,9 +24,8 @@ constexpr auto bins = static_cast<std::size_t>(2.0F * JumpProfile::reach / JumpP
 /// The faces about an edge as they are asked for, in mean edges from its middle.
 class Surroundings {
  public:
-  Surroundings(const Mesh& mesh, const std::vector<Vector3f>& normals, EdgeId e)
+  Surroundings(const Mesh& mesh, EdgeId e)
       : mesh_(mesh),
-        normals_(normals),
         unit_(mesh.mean_edge_length() > 0.0 ? mesh.mean_edge_length() : 1.0),
         middle_((mesh.point(mesh.edge(e)[0]) + mesh.point(mesh.edge(e)[1])) / 2.0) {}
 
@@ -36,9 +37,7 @@ class Surroundings {
         (mesh_.point(b) - mesh_.point(a)).cross(mesh_.point(c) - mesh_.point(a)) / (unit_ * unit_);
     const double twice = normal.norm();
     known->second.centre = (point(a) + point(b) + point(c)) / 3.0F;
-    known->second.normal = !normals_.empty() ? normals_[f]
-                           : twice > 0.0     ? Vector3f((normal / twice).cast<float>())
-                                             : Vector3f(Vector3f::Zero());
+    known->second.normal = (twice > 0.0 ? Point(normal / twice) : Point::Zero()).cast<float>();
     known->second.area = static_cast<float>(twice / 2.0);
     return known->second;
   }
@@ -70,7 +69,6 @@ class Surroundings {
 
  private:
   const Mesh& mesh_;
-  const std::vector<Vector3f>& normals_;
   const double unit_;
   const Point middle_;
   std::unordered_map<FaceId, FaceTable::Face> faces_;
@@ -359,10 +357,10 @@ float JumpProfile::jump() const {
 }
 
 JumpProfile profile_across(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e,
-                           const std::vector<Vector3f>& normals, const BorderTestOptions& options) {
+                           const BorderTestOptions& options) {
   if (mesh.is_border_edge(e)) return {};
   const Line line(mesh, candidates, e, options.pooled + static_cast<int>(own_reach));
-  Surroundings near(mesh, normals, e);
+  Surroundings near(mesh, e);
   Sums sums(mesh, near, line, options);
   const BorderEdge* border = candidates.find(e);
   if (!border) {

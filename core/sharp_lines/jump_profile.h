@@ -6,7 +6,6 @@
 #include "core/mesh/mesh.h"
 #include "core/sharp_lines/border_test.h"
 #include "core/sharp_lines/candidate_graph.h"
-#include "core/sharp_lines/face_table.h"
 
 namespace arris {
 
@@ -44,13 +43,11 @@ struct JumpProfile {
 /// The profile across an edge. On a candidate the line is followed as the border test follows it
 /// and what lies along it is pooled; its lines are fitted as the test fits them, between candidates
 /// at least as strong, and leave the very jump and turn that the test noted for this place (which
-/// it measured while weaker borders beside it were still there). Off the candidates nothing is
-/// tested: the profile goes across the way in which the normals turn least, and has no lines. Only
-/// faces joined to the edge over sides count. `normals`: per face, those that the candidates were
-/// found by; none: the faces' own. No dots on the border of the scan. Looks at the neighbourhood
-/// only.
+/// it measured while weaker borders beside it were still there, and where noise is harsh on
+/// filtered normals). Off the candidates nothing is tested: the profile goes across the way in
+/// which the normals turn least, and has no lines. Only faces joined to the edge over sides count.
+/// No dots on the border of the scan. Looks at the neighbourhood only.
 JumpProfile profile_across(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e,
-                           const std::vector<Eigen::Vector3f>& normals = {},
                            const BorderTestOptions& options = {});
 
 }  // namespace arris
