@@ -66,7 +66,7 @@ std::vector<EdgeId> CandidateGraph::choose(const LineChoiceOptions& options) con
     chosen[e] = edges_[e].height > options.angle && may_be_line(edges_[e].place, options);
   if (options.least_slit > 0.0F) add_slits(options, chosen);
   if (options.gap > 0.0F) close_gaps(options.gap, chosen);
-  cut_spurs(options.spur, chosen);
+  cut_spurs(options, chosen);
   drop_short(options.least_group, chosen);
   std::vector<EdgeId> result;
   for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -89,9 +89,11 @@ void CandidateGraph::add_slits(const LineChoiceOptions& options,
     if (!is_slit(start)) continue;
     group.assign(1, start);
     seen[start] = 1;
-    float length = 0.0F;
+    float length = 0.0F, sharpest = 0.0F;  // degrees
     for (std::size_t k = 0; k < group.size(); ++k) {
-      length += length_[group[k]];
+      const float strength = edges_[group[k]].place.value / options.angle;
+      length += length_[group[k]] * strength * strength;
+      sharpest = std::max(sharpest, edges_[group[k]].place.value);
       for (const std::uint32_t v : ends_[group[k]])
         for (const Half& half : around(v))
           if (is_slit(half.edge)) {
@@ -99,7 +101,7 @@ void CandidateGraph::add_slits(const LineChoiceOptions& options,
             group.push_back(half.edge);
           }
     }
-    if (length >= options.least_slit)
+    if (length >= options.least_slit && sharpest >= options.clear_slit)
       for (const std::uint32_t e : group) seen[e] = 2;
   }
   for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -156,32 +158,39 @@ void CandidateGraph::close_gaps(float most, std::vector<std::uint8_t>& chosen) c
   }
 }
 
-void CandidateGraph::cut_spurs(float most, std::vector<std::uint8_t>& chosen) const {
+void CandidateGraph::cut_spurs(const LineChoiceOptions& options,
+                               std::vector<std::uint8_t>& chosen) const {
   constexpr int rounds = 3;  // a spur may have spurs
   std::vector<std::uint32_t> branch;
   for (int round = 0; round < rounds; ++round) {
     bool any = false;
-    for (std::uint32_t end = 0; end + 1 < starts_.size(); ++end) {
-      if (degree(end, chosen) != 1) continue;
-      branch.clear();
-      float length = 0.0F;
-      std::uint32_t v = end, last = no_id;
-      do {
-        std::uint32_t next = no_id;
-        for (const Half& half : around(v))
-          if (chosen[half.edge] && half.edge != last) {
-            next = half.edge;
-            v = half.to;
-            break;
-          }
-        if (next == no_id) break;
-        last = next;
-        branch.push_back(next);
-        length += length_[next];
-      } while (length <= most && degree(v, chosen) == 2);
-      if (length > most || degree(v, chosen) < 3) continue;
-      for (const std::uint32_t e : branch) chosen[e] = 0;
-      any = true;
+    for (std::uint32_t start = 0; start + 1 < starts_.size(); ++start) {
+      const std::size_t met = degree(start, chosen);
+      if (met == 0 || met == 2) continue;
+      for (const Half& first : around(start)) {
+        if (!chosen[first.edge]) continue;
+        branch.assign(1, first.edge);
+        float length = length_[first.edge];
+        std::uint32_t v = first.to;
+        while (length <= options.spur && degree(v, chosen) == 2)
+          for (const Half& half : around(v))
+            if (chosen[half.edge] && half.edge != branch.back()) {
+              branch.push_back(half.edge);
+              length += length_[half.edge];
+              v = half.to;
+              break;
+            }
+        const std::size_t ahead = degree(v, chosen);
+        if (length > options.spur || v == start || ahead == 2 || (met == 1 && ahead < 3)) continue;
+        // Between two lines only what parts two regions is more than a rung of a ladder.
+        const bool parts = std::any_of(branch.begin(), branch.end(), [&](std::uint32_t e) {
+          return edges_[e].height > options.angle;
+        });
+        if (met != 1 && (ahead == 1 || parts)) continue;
+        for (const std::uint32_t e : branch) chosen[e] = 0;
+        any = true;
+        break;
+      }
     }
     if (!any) break;
   }

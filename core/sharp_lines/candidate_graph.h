@@ -14,10 +14,12 @@ struct LineChoiceOptions {
   float max_angle = 180.0F;  // degrees: what is sharper is no line, either
   bool convex = true, concave = true;  // signs of the jump that may be lines
   // Lengths in mean edges. A line inside a region (a step that fades out, a slit) is told by its
-  // own jump alone, so it has to be longer than one that parts two regions.
-  float least_slit = 8.0F;   // length over which such a line reaches the threshold
+  // own jump alone, so it has to be the longer the less it jumps: its length counts by the square
+  // of its jump over the threshold.
+  float least_slit = 16.0F;
+  float clear_slit = 38.0F;  // degrees that it reaches somewhere
   float gap = 4.0F;          // stretches of border shorter than this are closed between lines
-  float spur = 3.0F;         // branches with a free end shorter than this go
+  float spur = 3.0F;         // branches with a free end, and rungs between lines, under this go
   float least_group = 6.0F;  // connected lines shorter than this in all go
 };
 
@@ -48,7 +50,7 @@ class CandidateGraph {
   std::size_t degree(std::uint32_t v, const std::vector<std::uint8_t>& chosen) const;
   void add_slits(const LineChoiceOptions& options, std::vector<std::uint8_t>& chosen) const;
   void close_gaps(float most, std::vector<std::uint8_t>& chosen) const;
-  void cut_spurs(float most, std::vector<std::uint8_t>& chosen) const;
+  void cut_spurs(const LineChoiceOptions& options, std::vector<std::uint8_t>& chosen) const;
   void drop_short(float least, std::vector<std::uint8_t>& chosen) const;
 
   std::vector<BorderEdge> edges_;

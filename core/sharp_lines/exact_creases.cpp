@@ -83,7 +83,8 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
       if (!has_windows(mesh, table, e, flat_share_about(mesh, beta, e, options.flat))) continue;
       judged += own;
       const float angle = std::abs(beta[e]) * degrees;
-      if (jump.at_edge[e] >= options.least_jump * angle) agreed += own;
+      if (angle > options.most_facet || jump.at_edge[e] >= options.least_jump * angle)
+        agreed += own;
     }
     if (judged > 0.2 * length && agreed < 0.5 * judged)
       for (const HalfEdgeId h : chain.half_edges) is_crease[h >> 1] = 0;

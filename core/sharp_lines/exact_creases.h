@@ -19,6 +19,7 @@ struct ExactCreaseOptions {
   // the edge is one of several over which a cut corner turns; less, and a curved face turns there.
   float most_jump = 1.4F;
   float least_jump = 0.3F;
+  float most_facet = 60.0F;   // degrees: no curved face is tessellated as coarsely as that
   float most_beyond = 0.4F;   // share of a group of creases over which the jump may be more
   float least_length = 3.0F;  // mean edges: of a group of creases, unless its faces are large
 };

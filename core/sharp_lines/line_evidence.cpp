@@ -17,11 +17,21 @@ constexpr float radians = static_cast<float>(std::numbers::pi / 180.0);
 
 /// The jump as what a walk along lines reads.
 CurvaturesPtr as_measures(const Mesh& mesh, const NormalJump& jump,
-                          const std::vector<float>& at_edge) {
+                          const std::vector<float>& at_edge,
+                          const std::vector<BorderEdge>& candidates) {
+  // Windows see a jump from some edges away; what follows lines must keep to where it is.
+  constexpr float off_crest = 0.3F;
   auto measures = std::make_shared<Curvatures>();
   measures->beta.resize(mesh.edge_count());
   measures->ikabs.resize(mesh.vertex_count());
-  parallel_for(at_edge.size(), [&](std::size_t e) { measures->beta[e] = at_edge[e] * radians; });
+  parallel_for(at_edge.size(),
+               [&](std::size_t e) { measures->beta[e] = at_edge[e] * radians * off_crest; });
+  for (const BorderEdge& candidate : candidates)
+    measures->beta[candidate.edge] =
+        (std::abs(candidate.place.jump) >= std::abs(at_edge[candidate.edge])
+             ? candidate.place.jump
+             : at_edge[candidate.edge]) *
+        radians;
   parallel_for(measures->ikabs.size(), [&](std::size_t v) {
     // A vertex is as sharp as its sharpest edge, where that is told exactly.
     float sharpest = std::abs(jump.at_vertex[v]) * radians;
@@ -46,6 +56,24 @@ CurvaturesPtr as_measures(const Mesh& mesh, const NormalJump& jump,
 /// By how much thresholds rise with the noise, degrees.
 float rise_of(float noise, const LineEvidenceOptions& options) {
   return std::clamp(options.rise * (noise - options.ordinary), 0.0F, options.most_rise);
+}
+
+/// Both, by increasing edge; one that is a border as well as a crest keeps its height and takes the
+/// crest's place, which is pooled along it.
+std::vector<BorderEdge> merged(const std::vector<BorderEdge>& borders,
+                               const std::vector<BorderEdge>& crests) {
+  std::vector<BorderEdge> all;
+  all.reserve(borders.size() + crests.size());
+  auto crest = crests.begin();
+  for (const BorderEdge& border : borders) {
+    for (; crest != crests.end() && crest->edge < border.edge; ++crest) all.push_back(*crest);
+    all.push_back(border);
+    if (crest == crests.end() || crest->edge != border.edge) continue;
+    all.back().place = crest->place;
+    ++crest;
+  }
+  all.insert(all.end(), crest, crests.end());
+  return all;
 }
 
 }  // namespace
@@ -86,6 +114,10 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
     *borders = merge_creases(
         mesh, *borders,
         find_exact_creases(mesh, curvatures.beta, table, *jump, options.creases));
+  if (options.open) {
+    const std::vector<BorderEdge> crests = find_crests(mesh, table, *jump, *borders, regions.first_cut, options.crests);
+    *borders = merged(*borders, crests);
+  }
   evidence->jump.resize(mesh.edge_count());
   parallel_for(evidence->jump.size(), [&](std::size_t e) {
     evidence->jump[e] = jump->convex[e] ? jump->at_edge[e] : -jump->at_edge[e];
@@ -95,7 +127,8 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
       evidence->jump[border.edge] =
           border.place.turn >= 0.0F ? border.place.value : -border.place.value;
   evidence->candidates = CandidateGraph(mesh, table.unit, std::move(*borders));
-  evidence->measures = as_measures(mesh, *jump, evidence->jump);
+  evidence->measures =
+      as_measures(mesh, *jump, evidence->jump, evidence->candidates.edges());
   context.report(1.0, "line evidence");
   if (context.cancelled()) return cancelled();
   return evidence;

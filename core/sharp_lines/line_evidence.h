@@ -10,6 +10,7 @@
 #include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
 #include "core/sharp_lines/candidate_graph.h"
+#include "core/sharp_lines/crest.h"
 #include "core/sharp_lines/exact_creases.h"
 #include "core/sharp_lines/line_regions.h"
 #include "core/sharp_lines/normal_jump.h"
@@ -22,6 +23,7 @@ struct LineEvidenceOptions {
   NormalJumpOptions jump;
   LineRegionOptions regions;
   ExactCreaseOptions creases;
+  CrestOptions crests;
   NormalFilterOptions filter{2, 0.5F};  // rounds for harsh noise
   float threshold = 27.0F;              // degrees, where the noise is ordinary
   float harsh = 12.0F;  // degrees of normal noise from which normals are filtered first
@@ -29,7 +31,8 @@ struct LineEvidenceOptions {
   float rise = 0.7F;       // how much they rise for each degree beyond that,
   float most_rise = 9.0F;  // and at most;
   float first_cut_rise = 0.8F;  // the first cut of the regions rises by this share of that
-  bool exact = true;       // creases of places without noise by their own angle
+  bool exact = true;  // creases of places without noise by their own angle
+  bool open = true;   // lines that part no regions, along crests of the jump
 };
 
 /// Threshold in degrees for this much normal noise, degrees.

@@ -39,11 +39,47 @@ float cost_of(const HeightHistogram& heights, float quantile, float smaller, flo
   return smaller < least_area ? cost * smaller / least_area : cost;
 }
 
-/// Joins what no border of `options.first_cut` parts by the jump itself.
+/// The joins of regions as a forest: at which height two of them became one.
+class JoinForest {
+ public:
+  explicit JoinForest(std::size_t count) : parent_(count), height_(count, 0.0F), order_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  void join(std::uint32_t gone, std::uint32_t into, float height) {
+    parent_[gone] = into;
+    height_[gone] = height;
+    order_[gone] = ++joins_;
+  }
+  std::uint32_t root(std::uint32_t region) const {
+    while (parent_[region] != region) region = parent_[region];
+    return region;
+  }
+  /// Of two regions with one root.
+  float height_of_join(std::uint32_t a, std::uint32_t b) const {
+    float height = 0.0F;
+    while (a != b) {
+      // Whichever joined its parent first has not met the other yet.
+      const bool a_first = parent_[a] != a && (parent_[b] == b || order_[a] < order_[b]);
+      std::uint32_t& next = a_first ? a : b;
+      height = std::max(height, height_[next]);
+      next = parent_[next];
+    }
+    return height;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<float> height_;         // of the join with the parent
+  std::vector<std::uint32_t> order_;  // of that join among all
+  std::uint32_t joins_ = 0;
+};
+
+/// Joins what no border of `options.first_cut` parts by the jump itself. Borders that went are added
+/// to `low` (null: not wanted), as far as they count for something.
 FaceRegions first_cut(const FaceTable& table, const std::vector<float>& jump,
                       const std::vector<float>& edge_length,
                       const std::vector<std::array<FaceId, 2>>& edge_faces, FaceRegions regions,
-                      const LineRegionOptions& options) {
+                      const LineRegionOptions& options, std::vector<BorderEdge>* low) {
   RegionJoining<HeightHistogram> joining(areas_of(table, regions));
   for (EdgeId e = 0; e < edge_faces.size(); ++e) {
     const auto [left, right] = edge_faces[e];
@@ -51,8 +87,7 @@ FaceRegions first_cut(const FaceTable& table, const std::vector<float>& jump,
       continue;
     joining.border(regions.of_face[left], regions.of_face[right]).add(jump[e], edge_length[e]);
   }
-  std::vector<std::uint32_t> parent(regions.count);
-  std::iota(parent.begin(), parent.end(), 0U);
+  JoinForest forest(regions.count);
   const float least_area = options.first_area * mean_face_area;
   joining.run(
       options.first_cut,
@@ -60,12 +95,21 @@ FaceRegions first_cut(const FaceTable& table, const std::vector<float>& jump,
         return cost_of(heights, options.first_quantile, std::min(joining.area(a), joining.area(b)),
                        least_area);
       },
-      [&](const auto& join, const HeightHistogram&) { parent[join.gone] = join.into; });
+      [&](const auto& join, const HeightHistogram&) {
+        forest.join(join.gone, join.into, join.height);
+      });
+  for (EdgeId e = 0; low && e < edge_faces.size(); ++e) {
+    const auto [left, right] = edge_faces[e];
+    if (left == no_id || right == no_id) continue;
+    const std::uint32_t a = regions.of_face[left], b = regions.of_face[right];
+    if (a == b || forest.root(a) != forest.root(b)) continue;
+    const float height = forest.height_of_join(a, b);
+    if (height >= options.least_height) low->push_back({e, height, {jump[e], jump[e], height}});
+  }
   FaceRegions result{std::move(regions.of_face), 0};
-  std::vector<std::uint32_t> number(parent.size(), no_id);
+  std::vector<std::uint32_t> number(regions.count, no_id);
   for (std::uint32_t& r : result.of_face) {
-    std::uint32_t root = r;
-    while (parent[root] != root) root = parent[root] = parent[parent[root]];
+    const std::uint32_t root = forest.root(r);
     if (number[root] == no_id) number[root] = result.count++;
     r = number[root];
   }
@@ -282,12 +326,39 @@ Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTa
   FaceRegions regions = watershed(table, jump.at_edge, order, edge_faces, options.watershed);
   if (context.cancelled()) return cancelled();
   context.report(0.5, "regions");
-  regions = first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(regions), options);
+  // Weak borders are shown as they went, so their teeth go first; but the teeth of strong ones only
+  // once the weak ones are gone, since at harsh noise that moves them.
+  std::vector<BorderEdge> low;
+  FaceRegions smooth = regions;
+  smooth_borders(table, edge_length, options.smoothing, smooth.of_face);
+  first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(smooth), options, &low);
+  regions =
+      first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(regions), options, nullptr);
   smooth_borders(table, edge_length, options.smoothing, regions.of_face);
   if (context.cancelled()) return cancelled();
   context.report(0.7, "borders");
   TestedJoining joining(mesh, table, normals, regions, edge_length, options);
-  return joining.run();
+  std::vector<BorderEdge> borders = joining.run();
+  // The same border may be among both, an edge apart.
+  std::vector<std::uint8_t> near(mesh.vertex_count(), 0);
+  for (const BorderEdge& border : borders)
+    for (const VertexId v : mesh.edge(border.edge)) {
+      near[v] = 1;
+      mesh.for_ring(v, [&](HalfEdgeId h) { near[mesh.to(h)] = 1; });
+    }
+  const auto by_edge = [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; };
+  std::erase_if(low, [&](BorderEdge& border) {
+    if (!jump.convex[border.edge]) {
+      border.place.jump = -border.place.jump;
+      border.place.turn = -border.place.turn;
+    }
+    const EdgeVertices& ends = mesh.edge(border.edge);
+    return near[ends[0]] && near[ends[1]];
+  });
+  const auto middle = static_cast<std::ptrdiff_t>(borders.size());
+  borders.insert(borders.end(), low.begin(), low.end());
+  std::inplace_merge(borders.begin(), borders.begin() + middle, borders.end(), by_edge);
+  return borders;
 }
 
 }  // namespace arris

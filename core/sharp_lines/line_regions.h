@@ -15,6 +15,7 @@ struct LineRegionOptions {
   WatershedOptions watershed;
   BorderTestOptions test;
   float first_cut = 21.0F;      // degrees: borders weaker than this by their jump go untested
+  float least_height = 5.0F;    // degrees: of these, the ones that are kept for low thresholds
   float first_quantile = 0.4F;  // of a border's jump along its length: what it counts for
   float first_area = 40.0F;     // faces below which a region joins the more easily
   float quantile = 0.4F;        // the same for the test of whole borders

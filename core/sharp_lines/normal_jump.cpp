@@ -50,6 +50,7 @@ struct Sample {
 
 struct Measured {
   float jump = 0.0F;  // degrees, convex positive
+  float turn = 0.0F;  // degrees, between the means
   Vector3f along = Vector3f::Zero(), normal = Vector3f::Zero();
 };
 
@@ -122,6 +123,7 @@ Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& op
   const float most = plain.norm();
   if (!(most > 0.0F)) return result;
   result.jump = std::clamp((at_line[1] - at_line[0]).dot(plain) / most, 0.0F, most) * degrees;
+  result.turn = most * degrees;
   if (plain[0] < 0.0F) result.jump = -result.jump;  // the sides lean towards each other
   return result;
 }
@@ -134,6 +136,7 @@ Result<NormalJump> measure_normal_jump(const Mesh& mesh, const FaceTable& table,
   NormalJump result;
   const std::size_t vertices = mesh.vertex_count();
   result.at_vertex.assign(vertices, 0.0F);
+  result.turn.assign(vertices, 0.0F);
   std::vector<Vector3f> direction(vertices, Vector3f::Zero()), normal(vertices, Vector3f::Zero());
   result.convex.assign(mesh.edge_count(), 0);
   result.at_edge.assign(mesh.edge_count(), 0.0F);
@@ -168,6 +171,7 @@ Result<NormalJump> measure_normal_jump(const Mesh& mesh, const FaceTable& table,
                 {table.faces[f].centre - place, normals[f], table.faces[f].area});
           const Measured measured = measure(local.samples, options, falling);
           result.at_vertex[v] = measured.jump;
+          result.turn[v] = measured.turn;
           direction[v] = measured.along;
           normal[v] = measured.normal;
         },

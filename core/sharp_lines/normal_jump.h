@@ -25,6 +25,7 @@ struct NormalJumpOptions {
 /// curvature on both sides of it accounts for.
 struct NormalJump {
   std::vector<float> at_vertex;  ///< Degrees, up to 150 either way; convex positive.
+  std::vector<float> turn;  ///< Per vertex, degrees, 0 or more: between the means of the sides.
   /// Degrees, 0 or more: of its ends, less where the edge runs across the line.
   std::vector<float> at_edge;
   std::vector<std::uint8_t> convex;  ///< Per edge: 1 where its ends are rather convex.

@@ -151,8 +151,8 @@ TEST_F(Operations, DefaultsAreComplete) {
   EXPECT_EQ(names({"delete_faces", {{"box", {0, 0, -1, 5, 5, 9}}}}),
             (Names{"box", "side", "version"}));
   EXPECT_EQ(names({"find_sharp_lines", json::object()}),
-            (Names{"angle", "candidates", "min_length", "parallel_distance", "bridge_gap",
-                   "max_angle", "convexity", "corrections", "version"}));
+            (Names{"method", "angle", "candidates", "min_length", "parallel_distance",
+                   "bridge_gap", "max_angle", "convexity", "corrections", "version"}));
   EXPECT_EQ(names({"smooth_curvature", json::object()}), (Names{"passes", "version"}));
   EXPECT_EQ(names({"find_partitions", json::object()}),
             (Names{"criterion", "intervals", "min_faces", "fill_holes", "corrections", "version"}));

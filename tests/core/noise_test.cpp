@@ -296,7 +296,7 @@ TEST(Defaults, AreLengthsOfThePartAndNotRounded) {
   EXPECT_EQ(simplified.simplify->parameters["error_zone"], 3.0 * estimate_noise(mesh));
   EXPECT_EQ(simplified.simplify->parameters["max_edge_length"], 2.0 * mesh.mean_edge_length());
   const Document lined = applied(document, {"find_sharp_lines"});
-  EXPECT_EQ(lined.find_sharp_lines->parameters["min_length"], default_min_length(mesh));
+  EXPECT_EQ(lined.find_sharp_lines->parameters["min_length"], default_min_length(mesh, LineMethod::normal_jump));
 }
 
 TEST(Defaults, ReadLikeNumbersWhereTheyAreShown) {
