@@ -419,7 +419,9 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   // Out of date, the step's own mesh is gone: the tests tell of the current one.
   const bool out_of_date = step && step->out_of_date;
   if (result.holds) {
-    const double angle = line_measures(document)->beta[e] * 180.0 / std::numbers::pi;
+    const Result<LineEvidencePtr> evidence = line_evidence_of(document);
+    const double angle =
+        *evidence ? (*evidence)->jump[e] : document.curvatures->beta[e] * 180.0 / std::numbers::pi;
     result.headline = "On line " + std::to_string(line_through(mesh, document.lines, e)) + ", " +
                       origin_text(document.lines.edges[e]) + "; " +
                       (angle >= 0.0 ? "convex " : "concave ") + degrees_text(std::abs(angle)) +

@@ -76,7 +76,10 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   const std::vector<EdgeId> chosen = choose_sharp_edges(mesh, evidence, of_any_length);
   const bool is_chosen = contains(chosen, e);
   const bool above = border->height > static_cast<float>(options.angle);
-  const bool is_slit = is_chosen && !above && place.value >= static_cast<float>(options.angle);
+  // A crest parts no regions at any threshold; a border may at this one have none beside it.
+  const bool reaches = place.value >= static_cast<float>(options.angle);
+  const bool is_crest = border->height <= 0.0F && !border->exact;
+  const bool is_open = is_crest || (is_chosen && !above && reaches);
   if (border->exact) {
     add({"Region border", none, none, "", true,
          "The mesh has no noise here, so that each edge counts by its own exterior angle."});
@@ -84,13 +87,14 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
          "Its exterior angle of " + degrees_text(border->height) + " is " +
              (above ? "above" : "not above") + " TV_IH, " + threshold + "."});
   } else {
-    add({"Region border", none, none, "", true,
-         is_slit ? "It ends inside a region, as a step does that fades out."
+    add({"Region border", none, none, "", !is_open || is_chosen,
+         is_open ? "It parts no two regions, but lies on a crest of the jump, as a step does that "
+                   "fades out."
                  : "It lies on a border between two regions."});
-    if (is_slit)
-      add({"Normal jump", place.value, options.angle, "°", true,
-           "It parts no two regions at TV_IH, " + threshold + ", so its own jump counts, " +
-               degrees_text(place.value) + "; lines of this kind are longer than others."});
+    if (is_open)
+      add({"Normal jump", place.value, options.angle, "°", reaches,
+           "A line that parts no two regions counts by its own jump, " + degrees_text(place.value) +
+               "; TV_IH is " + threshold + ". It has to be the longer the less it jumps."});
     else
       add({"Normal jump", border->height, options.angle, "°", above,
            "Its border as a whole reads " + degrees_text(border->height) + ", " +
@@ -117,6 +121,12 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   if (!is_chosen) {
     if (!within)
       result.failed = "its jump is outside the bounds that were asked for";
+    else if (is_crest)
+      result.failed = reaches ? "it parts no two regions, and for that its crest is too short or "
+                                "jumps too little"
+                              : "it parts no two regions, and its own jump of " +
+                                    degrees_text(place.value) + " is not above the threshold of " +
+                                    threshold;
     else if (!above)
       result.failed =
           (border->exact ? "its exterior angle of " : "its border as a whole reads ") +
