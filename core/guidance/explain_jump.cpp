@@ -94,7 +94,9 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     if (is_open)
       add({"Normal jump", place.value, options.angle, "°", reaches,
            "A line that parts no two regions counts by its own jump, " + degrees_text(place.value) +
-               "; TV_IH is " + threshold + ". It has to be the longer the less it jumps."});
+               "; TV_IH is " + threshold +
+               (is_chosen && !reaches ? ". It closes a short gap between two lines."
+                                      : ". It has to be the longer the less it jumps.")});
     else
       add({"Normal jump", border->height, options.angle, "°", above,
            "Its border as a whole reads " + degrees_text(border->height) + ", " +
@@ -134,8 +136,9 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
           (border->exact ? " is not above the threshold of " : ", not above the threshold of ") +
           threshold;
     else
-      result.failed = "it is on a branch with a free end, shorter than " +
-                      number_text(LineChoiceOptions().spur, 2) + " edges";
+      result.failed =
+          "it is on a branch with a free end, or a rung between two lines, shorter than " +
+          number_text(LineChoiceOptions().spur, 2) + " edges";
     return result;
   }
   const Group group = group_of(mesh, evidence.candidates, chosen, e);
