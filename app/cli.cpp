@@ -20,10 +20,13 @@
 #include "core/document/comparison.h"
 #include "core/document/document.h"
 #include "core/document/export.h"
+#include "core/document/flow.h"
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
+#include "core/sharp_lines/face_table.h"
+#include "core/sharp_lines/normal_noise.h"
 #include "core/sharp_lines/sharp_lines.h"
 
 namespace {
@@ -78,12 +81,25 @@ struct Run {
   }
 };
 
+/// Of the scan, from which the default threshold comes.
+double normal_noise_of(const Document& document) {
+  const Mesh& scan = *document.opened.mesh;
+  return normal_noise(scan, FaceTable(scan));
+}
+
+double default_angle_of(const Document& document) {
+  return default_sharp_angle(*document.opened.mesh, *document.opened.curvatures,
+                             LineMethod::normal_jump);
+}
+
 nlohmann::json summary_of(const History& history) {
   const Document& document = history.current();
   nlohmann::json summary;
   summary["scan"] = document.scan->report.to_json();
   summary["mean_edge_length"] = document.mesh->mean_edge_length();
   summary["angle_noise_degrees"] = angle_noise(*document.curvatures);
+  summary["normal_noise_degrees"] = rounded(normal_noise_of(document), 4);
+  summary["default_sharp_angle"] = default_angle_of(document);
   summary["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
   nlohmann::json thresholds = nlohmann::json::object();
   for (const char* step : {"simplify", "swap_edges", "find_sharp_lines", "equilateralize",
@@ -159,7 +175,8 @@ int info(const std::string& scan, bool as_json) {
     json["size"] = {size.x(), size.y(), size.z()};
     json["mean_edge_length"] = mesh.mean_edge_length();
     json["angle_noise_degrees"] = angle_noise(*document.curvatures);
-    json["default_sharp_angle"] = default_sharp_angle(mesh, *document.curvatures, LineMethod::normal_jump);
+    json["normal_noise_degrees"] = rounded(normal_noise_of(document), 4);
+    json["default_sharp_angle"] = default_angle_of(document);
     json["mixed_area_vertices"] = document.curvatures->mixed_area_vertices;
     json["sentences"] = report.sentences();
     std::cout << json.dump(2) << "\n";
@@ -175,9 +192,10 @@ int info(const std::string& scan, bool as_json) {
             << "size: " << number_text(size.x(), 5) << " x " << number_text(size.y(), 5) << " x "
             << number_text(size.z(), 5) << ", mean edge " << number_text(mesh.mean_edge_length(), 4)
             << "\n"
-            << "exterior angles from noise: " << fixed_text(angle_noise(*document.curvatures), 1)
-            << " degrees; sharp lines are looked for above "
-            << fixed_text(default_sharp_angle(mesh, *document.curvatures, LineMethod::normal_jump), 1) << " degrees\n";
+            << "noise turns normals by " << fixed_text(normal_noise_of(document), 1)
+            << " degrees and edges by " << fixed_text(angle_noise(*document.curvatures), 1)
+            << "; sharp lines are looked for where normals jump by more than "
+            << fixed_text(default_angle_of(document), 1) << " degrees\n";
   if (report.clean()) std::cout << "nothing had to be mended\n";
   for (const std::string& sentence : report.sentences()) std::cout << "- " << sentence << "\n";
   return 0;
@@ -192,9 +210,9 @@ int curvature(const std::string& scan, const std::string& output) {
   return 0;
 }
 
-/// Figure 2 on one scan.
+/// From one scan to its partitions.
 struct Segmentation {
-  bool prepare = true;
+  Flow flow = Flow::scan;
   bool swap = false;  // costs more of the weak lines than it mends of the noise
   int smoothing_passes = 0;
   nlohmann::json simplification = nlohmann::json::object();
@@ -204,13 +222,19 @@ struct Segmentation {
 
 int segment(const std::string& scan, const std::string& folder, const Segmentation& wanted) {
   std::vector<Operation> operations{{"open", {{"file", scan}}}};
-  if (wanted.prepare) operations.push_back({"simplify", wanted.simplification});
-  if (wanted.swap) operations.push_back({"swap_edges"});
-  operations.push_back({"find_sharp_lines", wanted.lines});
-  if (wanted.prepare) operations.push_back({"equilateralize"});
-  if (wanted.smoothing_passes > 0)
-    operations.push_back({"smooth_curvature", {{"passes", wanted.smoothing_passes}}});
-  operations.push_back({"find_partitions", wanted.partitions});
+  for (Operation& operation : operations_of(wanted.flow)) {
+    if (operation.name == "simplify") operation.parameters = wanted.simplification;
+    if (operation.name == "find_sharp_lines") {
+      if (wanted.swap) operations.push_back({"swap_edges"});
+      operation.parameters.update(wanted.lines);
+    }
+    if (operation.name == "find_partitions") {
+      if (wanted.smoothing_passes > 0)
+        operations.push_back({"smooth_curvature", {{"passes", wanted.smoothing_passes}}});
+      operation.parameters = wanted.partitions;
+    }
+    operations.push_back(std::move(operation));
+  }
   Run run;
   for (const Operation& operation : operations)
     if (const auto done = run.step(operation); !done) return complain(done.error());
@@ -419,10 +443,13 @@ int main(int argc, char** argv) {
   segment_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
   segment_command->add_option("-o,--output", output, "The folder for the results")->required();
   CLI::Option* angle_option =
-      segment_command->add_option("--sharp-angle", sharp_angle, "TV_IH in degrees")
+      segment_command
+          ->add_option("--sharp-angle", sharp_angle,
+                       "TV_IH in degrees: the least jump of the normals, or exterior angle (walk)")
           ->check(CLI::Range(0.1, 179.9));
   CLI::Option* candidates_option =
-      segment_command->add_option("--candidates", candidates, "Edges kept at a vertex (alpha, 3)")
+      segment_command
+          ->add_option("--candidates", candidates, "Edges kept at a vertex by the walk (alpha, 3)")
           ->check(CLI::Range(1, 32));
   CLI::Option* length_option =
       segment_command
@@ -456,11 +483,27 @@ int main(int argc, char** argv) {
   CLI::Option* edge_option = add_edge(simplify_command, "left out: no limit");
   CLI::Option* segment_zone_option = add_zone(segment_command);
   CLI::Option* segment_edge_option = add_edge(segment_command, "0: no limit");
+  for (CLI::Option* option : {segment_zone_option, segment_edge_option})
+    option->description(option->get_description() + "; --flow paper");
   Segmentation segmentation;
+  std::string flow, method;
+  CLI::Option* flow_option =
+      segment_command
+          ->add_option("--flow", flow,
+                       "scan: lines and partitions on the scan's own mesh (default); paper: figure "
+                       "2, simplify, lines by the walk, equilateralise, partitions")
+          ->check(CLI::IsMember({"scan", "paper"}));
+  CLI::Option* method_option =
+      segment_command
+          ->add_option("--method", method,
+                       "How lines are found: normal_jump (default of the flow scan) or walk (of "
+                       "the flow paper)")
+          ->check(CLI::IsMember({"normal_jump", "walk"}));
   bool no_prepare = false;
-  segment_command->add_flag("--no-prepare", no_prepare,
-                            "Lines and partitions of the scan as it is, not simplified");
-  segment_command->add_flag("--swap", segmentation.swap, "Swap edges before finding lines");
+  CLI::Option* no_prepare_option =
+      segment_command->add_flag("--no-prepare", no_prepare, "The same as --flow scan");
+  CLI::Option* swap_option = segment_command->add_flag(
+      "--swap", segmentation.swap, "Swap edges before finding lines; --flow paper");
   segment_command
       ->add_option("--smooth", segmentation.smoothing_passes,
                    "Passes of curvature smoothing before finding partitions (0)")
@@ -494,6 +537,17 @@ int main(int argc, char** argv) {
     if (std::isnan(sharp_angle) || std::isnan(min_length) || std::isnan(error_zone) ||
         std::isnan(max_edge))
       throw CLI::ValidationError("options", "a number was expected, not nan");
+    if (*no_prepare_option && flow == "paper")
+      throw CLI::ValidationError("--no-prepare", "it contradicts --flow paper");
+    if (flow != "paper")
+      for (const CLI::Option* option : {segment_zone_option, segment_edge_option, swap_option})
+        if (*option)
+          throw CLI::ValidationError(
+              option->get_name(),
+              "it changes the mesh before lines are found, which only the paper's flow does: add "
+              "--flow paper");
+    if (*candidates_option && (method.empty() ? flow != "paper" : method != "walk"))
+      throw CLI::ValidationError("--candidates", "only the walk uses it: add --method walk");
     for (const std::string& text : intervals) {
       nlohmann::json interval;
       if (!parse_interval(text, interval))
@@ -504,6 +558,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : bad_usage;
   }
   if (*angle_option) lines["angle"] = sharp_angle;
+  if (*method_option) lines["method"] = method;
   if (*candidates_option) lines["candidates"] = candidates;
   if (*length_option) lines["min_length"] = min_length;
   if (*criterion_option) partitions["criterion"] = criterion;
@@ -511,7 +566,7 @@ int main(int argc, char** argv) {
   if (*fill_option) partitions["fill_holes"] = fill_holes;
 
   nlohmann::json& simplification = segmentation.simplification;
-  segmentation.prepare = !no_prepare;
+  if (*flow_option && flow == "paper") segmentation.flow = Flow::paper;
   if (*zone_option || *segment_zone_option) simplification["error_zone"] = error_zone;
   if (*edge_option || *segment_edge_option || *simplify_command)
     simplification["max_edge_length"] = max_edge;

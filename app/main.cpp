@@ -6,6 +6,7 @@
 #include <QCommandLineParser>
 #include <QTimer>
 
+#include "core/document/flow.h"
 #include "ui/window/main_window.h"
 #include "ui/window/theme.h"
 
@@ -25,6 +26,16 @@ void prefer_glx() {
   if (!qEnvironmentVariableIsSet("QT_XCB_GL_INTEGRATION"))
     qputenv("QT_XCB_GL_INTEGRATION", "xcb_glx");
 #endif
+}
+
+/// As they are typed: with quotes where there is a space in one.
+QString field_names() {
+  QStringList names;
+  for (const FieldInfo& info : field_table()) {
+    const QString name = QString::fromUtf8(info.name.data(), qsizetype(info.name.size()));
+    names << (name.contains(' ') ? '"' + name + '"' : name);
+  }
+  return names.join(' ');
 }
 
 int complain(const QString& message, int code) {
@@ -52,14 +63,17 @@ int main(int argc, char** argv) {
   const QCommandLineOption sample("sample", "Open the sample mould.");
   const QCommandLineOption screenshot("screenshot", "Open, draw, save the picture and exit.",
                                       "OUT.png");
-  const QCommandLineOption field(
-      "field", "Field to show: K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".", "F");
+  const QString fields = field_names();
+  const QCommandLineOption field("field", "Field to show: " + fields + ".", "F");
   const QCommandLineOption size("size", "Size of the picture in pixels (1600x1200).", "WxH",
                                 "1600x1200");
-  const QCommandLineOption run(
-      "run", "Prepare the part and find sharp lines and partitions after opening.");
+  const QCommandLineOption run("run", "Find sharp lines and partitions after opening.");
+  const QCommandLineOption flow(
+      "flow",
+      "With --run: scan, the scan as it is; or paper, simplified first and equilateralised (scan).",
+      "FLOW", "scan");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
-  parser.addOptions({sample, screenshot, field, size, run, window});
+  parser.addOptions({sample, screenshot, field, size, run, flow, window});
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
   if (parser.isSet("help")) parser.showHelp();
   if (parser.isSet("version")) parser.showVersion();
@@ -70,11 +84,11 @@ int main(int argc, char** argv) {
   if (parser.isSet(field)) {
     wanted_field = find_field(parser.value(field).toStdString());
     if (!wanted_field)
-      return complain(
-          "--field " + parser.value(field) +
-              " is not one of K H Kabs IH IK IKabs IHe Shape Deviation \"Face quality\".",
-          bad_usage);
+      return complain("--field " + parser.value(field) + " is not one of " + fields + ".",
+                      bad_usage);
   }
+  if (parser.value(flow) != "scan" && parser.value(flow) != "paper")
+    return complain("--flow " + parser.value(flow) + " is neither scan nor paper.", bad_usage);
   const QStringList parts = parser.value(size).split('x');
   bool good_width = false, good_height = false;
   const int width = parts.value(0).toInt(&good_width);
@@ -96,10 +110,7 @@ int main(int argc, char** argv) {
     if (wanted_field) main_window.set_field(*wanted_field);
     if (parser.isSet(run))
       QTimer::singleShot(0, &main_window, [&] {
-        session.run({Operation{"simplify", nlohmann::json::object()},
-                     Operation{"find_sharp_lines", nlohmann::json::object()},
-                     Operation{"equilateralize", nlohmann::json::object()},
-                     Operation{"find_partitions", nlohmann::json::object()}});
+        session.run(operations_of(parser.value(flow) == "paper" ? Flow::paper : Flow::scan));
       });
   });
   if (shoot) {
@@ -107,19 +118,27 @@ int main(int argc, char** argv) {
     QObject::connect(&session, &Session::failed, &main_window, [](const QString& message) {
       QApplication::exit(complain(message, bad_input));
     });
-    const auto save = [&, picture, width, height] {
+    const auto shoot_now = [&, picture, width, height] {
+      QString error;
+      if (parser.isSet(window)) {
+        if (!main_window.grab().save(picture)) error = picture + " could not be written.";
+      } else {
+        PictureOptions options;
+        options.size = {width, height};
+        main_window.save_picture(picture, options, &error);
+      }
+      QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
+    };
+    const auto save = [&, shoot_now] {
       if (wanted_field) main_window.set_field(*wanted_field);
-      QTimer::singleShot(300, &main_window, [&, picture, width, height] {
-        QString error;
-        if (parser.isSet(window)) {
-          if (!main_window.grab().save(picture)) error = picture + " could not be written.";
-        } else {
-          PictureOptions options;
-          options.size = {width, height};
-          main_window.save_picture(picture, options, &error);
-        }
-        QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
+      // Once everything has settled, and the field is there.
+      auto* waiting = new QTimer(&main_window);
+      QObject::connect(waiting, &QTimer::timeout, &main_window, [&, waiting, shoot_now] {
+        if (main_window.fields().working()) return;
+        waiting->stop();
+        shoot_now();
       });
+      waiting->start(300);
     };
     const QString last = parser.isSet(run) ? "find_partitions" : "open";
     QObject::connect(&session, &Session::done, &main_window, [last, save](const QString& name) {

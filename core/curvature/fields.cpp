@@ -9,9 +9,9 @@
 
 namespace arris {
 
-const std::array<FieldInfo, 10>& field_table() {
+const std::array<FieldInfo, field_count>& field_table() {
   constexpr Element vertex = Element::vertex, edge = Element::edge, face = Element::face;
-  static constexpr std::array<FieldInfo, 10> table{{
+  static constexpr std::array<FieldInfo, field_count> table{{
       {Field::k, "K", "1/mm²", "Gaussian curvature (eq. 2)", vertex, true},
       {Field::h, "H", "1/mm", "Mean curvature (eq. 6); positive where convex", vertex, true},
       {Field::kabs, "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder"},
@@ -20,14 +20,17 @@ const std::array<FieldInfo, 10>& field_table() {
       {Field::ikabs, "IKabs", "", "Invariant of the absolute curvature (eq. 14)"},
       {Field::ihe, "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", edge,
        true},
+      {Field::normal_jump, "Normal jump", "°",
+       "How far the mean normal turns at once across an edge, above what the surface beside it "
+       "turns; positive where convex",
+       edge, true},
       {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", vertex,
        false, true},
       {Field::deviation, "Deviation", "% of zone",
-       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face,
-       false, false, false},
+       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face},
       {Field::face_quality, "Face quality", "",
        "Twice the inscribed over the circumscribed radius: 1 for equilateral faces, 0 for slivers",
-       face, false, false, false},
+       face},
   }};
   return table;
 }
@@ -77,6 +80,7 @@ std::vector<double> field_values(const Curvatures& c, Field field) {
     }
     case Field::shape:
       break;
+    case Field::normal_jump:
     case Field::deviation:
     case Field::face_quality:
       return {};

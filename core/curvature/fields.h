@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,7 +13,8 @@
 namespace arris {
 
 /// The fields that can be shown and read under the pointer.
-enum class Field { k, h, kabs, ih, ik, ikabs, ihe, shape, deviation, face_quality };
+enum class Field { k, h, kabs, ih, ik, ikabs, ihe, normal_jump, shape, deviation, face_quality };
+inline constexpr std::size_t field_count = 11;
 
 /// What a field has one value for.
 enum class Element { vertex, edge, face };
@@ -24,12 +26,11 @@ struct FieldInfo {
   std::string_view meaning;  ///< One sentence.
   Element element = Element::vertex;
   bool is_signed = false;
-  bool is_class = false;     ///< Values are class numbers (Shape).
-  bool is_curvature = true;  ///< Told by Curvatures alone; the others need the document.
+  bool is_class = false;  ///< Values are class numbers (Shape).
 };
 
 /// All fields in the order of the enumeration.
-const std::array<FieldInfo, 10>& field_table();
+const std::array<FieldInfo, field_count>& field_table();
 const FieldInfo& info_of(Field field);
 /// By name, upper or lower case.
 std::optional<Field> find_field(std::string_view name);

@@ -10,6 +10,7 @@
 #include "core/base/number_text.h"
 #include "core/document/operations/chain.h"
 #include "core/document/treatments/treatment.h"
+#include "core/guidance/explain_jump.h"
 #include "core/sharp_lines/automatic_treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 
@@ -21,6 +22,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string short_text(double value) { return number_text(value, 4); }
 std::string degrees_text(double value) { return fixed_text(value, 1) + " degrees"; }
+constexpr const char* corrected_away = "the step finds it, so a correction took it away afterwards";
+
 std::string vertex_text(VertexId v) { return "vertex " + std::to_string(v); }
 
 std::string count_text(std::size_t count, const std::string& one, const std::string& more) {
@@ -55,7 +58,7 @@ std::string origin_text(Origin origin) {
   return "found";
 }
 
-/// The tests of one edge on one mesh. `Sharp(e)` tells which edges count as sharp.
+/// The tests of one edge on one mesh by the walk. `Sharp(e)` tells which edges count as sharp.
 class EdgeTests {
  public:
   EdgeTests(const Mesh& mesh, const Curvatures& curvatures, const SharpLineOptions& options,
@@ -149,7 +152,7 @@ class EdgeTests {
         return "it was found, but its line and what it touches are shorter than min_length, " +
                short_text(options_.min_length) + " mm";
     }
-    return "the step finds it, so a correction took it away afterwards";
+    return corrected_away;
   }
 
  private:
@@ -416,7 +419,9 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   // Out of date, the step's own mesh is gone: the tests tell of the current one.
   const bool out_of_date = step && step->out_of_date;
   if (result.holds) {
-    const double angle = document.curvatures->beta[e] * 180.0 / std::numbers::pi;
+    const Result<LineEvidencePtr> evidence = line_evidence_of(document);
+    const double angle =
+        *evidence ? (*evidence)->jump[e] : document.curvatures->beta[e] * 180.0 / std::numbers::pi;
     result.headline = "On line " + std::to_string(line_through(mesh, document.lines, e)) + ", " +
                       origin_text(document.lines.edges[e]) + "; " +
                       (angle >= 0.0 ? "convex " : "concave ") + degrees_text(std::abs(angle)) +
@@ -437,6 +442,28 @@ Explanation explain_edge(const Document& document, EdgeId e) {
     }
   }
   const SharpLineOptions options = line_options_of(step->parameters);
+  const auto headline_of = [&](const std::optional<std::string>& failed, const auto& looked_up) {
+    std::string reason;
+    if (!there)
+      reason = "equilateralisation made this edge after the lines were found";
+    else if (failed)
+      reason = *failed;
+    else if (out_of_date)
+      reason = "the lines are from before an earlier step changed; find them again";
+    else
+      reason = looked_up();
+    return "Not on a line: " + reason + ".";
+  };
+  if (options.method == LineMethod::normal_jump) {
+    if (!base.evidence)
+      base.evidence = std::make_shared<const SharedLineEvidence>(base.mesh, base.curvatures);
+    JumpTests jump = test_by_jump(*base.mesh, **base.evidence->get(), options, there.value_or(e));
+    result.tests = std::move(jump.tests);
+    if (!jump.profile.dots.empty()) result.profile = std::move(jump.profile);
+    if (!result.holds)
+      result.headline = headline_of(jump.failed, [] { return std::string(corrected_away); });
+    return result;
+  }
   const EdgeTests tests(*base.mesh, *base.curvatures, options, there.value_or(e));
   // Sharp edges keep their vertices from mesh to mesh; both meshes share the vertices.
   result.tests = tests.all([&](EdgeId other) {
@@ -445,17 +472,8 @@ Explanation explain_edge(const Document& document, EdgeId e) {
     const std::optional<EdgeId> now = mesh.find_edge(a, b);
     return now && document.lines.is_sharp(*now);
   });
-  if (result.holds) return result;
-  std::string reason;
-  if (!there)
-    reason = "equilateralisation made this edge after the lines were found";
-  else if (const std::optional<std::string> failed = tests.failed())
-    reason = *failed;
-  else if (out_of_date)
-    reason = "the lines are from before an earlier step changed; find them again";
-  else
-    reason = tests.looked_up();
-  result.headline = "Not on a line: " + reason + ".";
+  if (!result.holds)
+    result.headline = headline_of(tests.failed(), [&] { return tests.looked_up(); });
   return result;
 }
 

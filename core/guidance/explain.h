@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/document/document.h"
 #include "core/mesh/mesh.h"
+#include "core/sharp_lines/jump_profile.h"
 
 namespace arris {
 
@@ -23,15 +25,23 @@ struct Explanation {
   bool holds = false;    ///< The edge is sharp; the face is in a partition.
   std::string headline;  ///< One sentence: "On line 12, found; convex 34.2 degrees."
   std::vector<ExplainedTest> tests;
+  /// How the surface turns across the edge; absent where lines are found by the walk, or nothing
+  /// can be measured.
+  std::optional<JumpProfile> profile;
 };
 
-/// The tests of section 6.1 on an edge, with the parameters of the last find_sharp_lines, on the
+/// The tests that decide about an edge, with the parameters of the last find_sharp_lines, on the
 /// mesh that step ran on (an equilateralised mesh still has its sharp edges, but other curvatures).
 ///
-/// An edge can only be sharp where it lies inside the scan, its |IHe| is above TV_IH and the IKabs
-/// of both its ends is above TV_IK; such tests look at the edge's neighbourhood only. An edge that
-/// passes them all and is not sharp all the same is looked up by running identification and the
-/// automatic treatments again: about as long as find_sharp_lines takes.
+/// By the normal jump: whether a border between regions runs there, what the border as a whole
+/// reads, and what became of it when lines were chosen. Looks at the candidates of the whole mesh,
+/// some 50 ms on a million faces; evidence that is not known yet is worked out first.
+///
+/// By the walk, the tests of section 6.1: an edge can only be sharp where it lies inside the scan,
+/// its |IHe| is above TV_IH and the IKabs of both its ends is above TV_IK; such tests look at the
+/// edge's neighbourhood only. An edge that passes them all and is not sharp all the same is looked
+/// up by running identification and the automatic treatments again: about as long as
+/// find_sharp_lines takes.
 Explanation explain_edge(const Document& document, EdgeId e);
 
 /// The tests of section 7.1 on a face, with the parameters of the last find_partitions. Looks at

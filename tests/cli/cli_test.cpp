@@ -515,8 +515,8 @@ TEST_F(Cli, SegmentOfAStepFindsItsLinesAndLevels) {
 
 TEST_F(Cli, SegmentTakesItsOptions) {
   expect_done({"segment", small_part(), "-o", folder.file("results"), "--sharp-angle", "33.5",
-               "--candidates", "5", "--min-length", "1.25", "--criterion", "ikabs", "--min-faces",
-               "7"});
+               "--method", "walk", "--candidates", "5", "--min-length", "1.25", "--criterion",
+               "ikabs", "--min-faces", "7"});
   const json thresholds = summary("results")["thresholds"];
   EXPECT_EQ(thresholds["find_sharp_lines"]["angle"], 33.5);
   EXPECT_EQ(thresholds["find_sharp_lines"]["candidates"], 5);
@@ -525,7 +525,7 @@ TEST_F(Cli, SegmentTakesItsOptions) {
   EXPECT_EQ(thresholds["find_partitions"]["min_faces"], 7);
 }
 
-TEST_F(Cli, SegmentPreparesTheScanUnlessToldNotTo) {
+TEST_F(Cli, SegmentTakesTheScanAsItIsOrThePapersFlow) {
   const auto steps = [&](const std::string& results) {
     std::vector<std::string> names;
     std::istringstream rows(folder.read(results + "/operations.jsonl"));
@@ -534,17 +534,82 @@ TEST_F(Cli, SegmentPreparesTheScanUnlessToldNotTo) {
     return names;
   };
   const std::string part = small_part();
-  expect_done({"segment", part, "-o", folder.file("all"), "--error-zone", "0.02", "--max-edge",
-               "2.5", "--swap", "--smooth", "1"});
+  expect_done({"segment", part, "-o", folder.file("default")});
+  EXPECT_EQ(steps("default"),
+            (std::vector<std::string>{"open", "find_sharp_lines", "find_partitions"}));
+  EXPECT_EQ(summary("default")["thresholds"]["find_sharp_lines"]["method"], "normal_jump");
+  expect_done({"segment", part, "-o", folder.file("paper"), "--flow", "paper"});
+  EXPECT_EQ(steps("paper"), (std::vector<std::string>{"open", "simplify", "find_sharp_lines",
+                                                      "equilateralize", "find_partitions"}));
+  EXPECT_EQ(summary("paper")["thresholds"]["find_sharp_lines"]["method"], "walk");
+  expect_done({"segment", part, "-o", folder.file("walk"), "--method", "walk", "--smooth", "1"});
+  EXPECT_EQ(steps("walk"), (std::vector<std::string>{"open", "find_sharp_lines", "smooth_curvature",
+                                                     "find_partitions"}));
+  EXPECT_EQ(summary("walk")["thresholds"]["find_sharp_lines"]["method"], "walk");
+  expect_done(
+      {"segment", part, "-o", folder.file("mixed"), "--flow", "paper", "--method", "normal_jump"});
+  EXPECT_EQ(summary("mixed")["thresholds"]["find_sharp_lines"]["method"], "normal_jump");
+  expect_done({"segment", part, "-o", folder.file("all"), "--flow", "paper", "--error-zone", "0.02",
+               "--max-edge", "2.5", "--swap", "--smooth", "1"});
   EXPECT_EQ(steps("all"),
             (std::vector<std::string>{"open", "simplify", "swap_edges", "find_sharp_lines",
                                       "equilateralize", "smooth_curvature", "find_partitions"}));
   const json thresholds = summary("all")["thresholds"];
   EXPECT_EQ(thresholds["simplify"]["error_zone"], 0.02);
   EXPECT_EQ(thresholds["simplify"]["max_edge_length"], 2.5);
-  expect_done({"segment", part, "-o", folder.file("bare"), "--no-prepare"});
-  EXPECT_EQ(steps("bare"),
-            (std::vector<std::string>{"open", "find_sharp_lines", "find_partitions"}));
+  for (const auto& same : {std::vector<std::string>{"--no-prepare"}, {"--flow", "scan"}}) {
+    std::vector<std::string> arguments{"segment", part, "-o", folder.file("bare")};
+    arguments.insert(arguments.end(), same.begin(), same.end());
+    expect_done(arguments);
+    EXPECT_EQ(steps("bare"),
+              (std::vector<std::string>{"open", "find_sharp_lines", "find_partitions"}));
+  }
+}
+
+TEST_F(Cli, OptionsOfTheOtherFlowOrMethodAreRefusedInASentence) {
+  const std::string part = small_part(), out = folder.file("results");
+  const auto refused = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"segment", part, "-o", out});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_FALSE(fs::exists(out)) << "nothing is written";
+    return outcome.err;
+  };
+  for (const auto& options : {std::vector<std::string>{"--error-zone", "0.02"},
+                              {"--max-edge", "2"},
+                              {"--swap"},
+                              {"--no-prepare", "--swap"},
+                              {"--flow", "scan", "--swap"}}) {
+    const std::string said = refused(options);
+    EXPECT_NE(said.find("--flow paper"), std::string::npos) << said;
+    EXPECT_NE(
+        said.find(options[0] == "--no-prepare" || options[0] == "--flow" ? "--swap" : options[0]),
+        std::string::npos)
+        << said;
+  }
+  EXPECT_NE(refused({"--candidates", "4"}).find("--method walk"), std::string::npos);
+  EXPECT_NE(refused({"--flow", "paper", "--method", "normal_jump", "--candidates", "4"})
+                .find("--method walk"),
+            std::string::npos);
+  EXPECT_NE(refused({"--no-prepare", "--flow", "paper"}).find("contradicts"), std::string::npos);
+  refused({"--flow", "both"});
+  refused({"--method", "magic"});
+}
+
+TEST_F(Cli, TheNormalNoiseIsToldWithTheThresholdThatFollowsFromIt) {
+  const std::string scan = write_mesh(folder, "scan.ply", sample_mould(2.5));
+  const Outcome text = run({"info", scan});
+  EXPECT_NE(text.out.find("noise turns normals by "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("sharp lines are looked for where normals jump by more than"),
+            std::string::npos);
+  const json report = json::parse(run({"info", "--json", scan}).out);
+  EXPECT_GT(report["normal_noise_degrees"], 0.5);
+  EXPECT_LT(report["normal_noise_degrees"], 20.0);
+  expect_done({"segment", scan, "-o", folder.file("results")});
+  const json result = summary("results");
+  EXPECT_EQ(result["normal_noise_degrees"], report["normal_noise_degrees"]);
+  EXPECT_EQ(result["default_sharp_angle"], report["default_sharp_angle"]);
+  EXPECT_EQ(result["thresholds"]["find_sharp_lines"]["angle"], report["default_sharp_angle"]);
 }
 
 TEST_F(Cli, SimplifySaysTheErrorZoneInThreeDigits) {

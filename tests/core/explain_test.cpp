@@ -29,10 +29,19 @@ double degrees(const Document& document, EdgeId e) {
   return std::abs(document.curvatures->beta[e]) * 180.0 / std::numbers::pi;
 }
 
+constexpr const char* methods[] = {"normal_jump", "walk"};
+
+Document with_lines(Document document, const char* method) {
+  return applied(std::move(document), {"find_sharp_lines", {{"method", method}}});
+}
+
 /// A segmented sample mould.
-Document segmented_mould() {
-  return applied(applied(document_of(sample_mould(1.8)), {"find_sharp_lines", {}}),
-                 {"find_partitions", {}});
+Document segmented_mould(const char* method) {
+  return applied(with_lines(document_of(sample_mould(1.8)), method), {"find_partitions", {}});
+}
+
+const BorderEdge* candidate(const Document& document, EdgeId e) {
+  return document.evidence->known()->candidates.find(e);
 }
 
 /// What must hold of every edge and face, whatever the document.
@@ -65,8 +74,7 @@ void expect_agreement(const Document& document) {
 TEST(ExplainEdge, EdgesOfACubePassEveryTestAndFlatOnesFailAtTheAngle) {
   for (const int divisions : {1, 4}) {
     SCOPED_TRACE(divisions);
-    const Document document =
-        applied(document_of(divided_cube(10.0, divisions)), {"find_sharp_lines", {}});
+    const Document document = with_lines(document_of(divided_cube(10.0, divisions)), "walk");
     int sharp = 0;
     for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
       const Explanation explanation = explain_edge(document, e);
@@ -93,14 +101,119 @@ TEST(ExplainEdge, EdgesOfACubePassEveryTestAndFlatOnesFailAtTheAngle) {
   }
 }
 
-TEST(ExplainEdge, ConcaveAndConvexAreToldApart) {
-  const Document document =
-      applied(document_of(stepped_plate(10.0, 20.0, 4.0, 1.0)), {"find_sharp_lines", {}});
-  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e)
-    if (document.lines.is_sharp(e)) {
-      EXPECT_TRUE(contains(explain_edge(document, e).headline,
-                           document.curvatures->beta[e] > 0 ? "convex 90.0" : "concave 90.0"));
+TEST(ExplainEdge, ByTheJumpEdgesOfACubeCountByTheirOwnAngle) {
+  for (const int divisions : {1, 4}) {
+    SCOPED_TRACE(divisions);
+    const Document document = with_lines(document_of(divided_cube(10.0, divisions)), "normal_jump");
+    int sharp = 0;
+    for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
+      const Explanation explanation = explain_edge(document, e);
+      const bool is_edge = degrees(document, e) > 45.0;
+      ASSERT_EQ(explanation.holds, is_edge);
+      if (is_edge) {
+        ++sharp;
+        EXPECT_TRUE(contains(explanation.headline, "found; convex 90.0 degrees."))
+            << explanation.headline;
+        const ExplainedTest* angle = find_test(explanation, "Exterior angle");
+        ASSERT_NE(angle, nullptr);
+        EXPECT_NEAR(angle->value, 90.0, 1e-3);
+        EXPECT_EQ(angle->threshold, document.find_sharp_lines->parameters.at("angle"));
+        EXPECT_EQ(angle->unit, "°");
+        EXPECT_EQ(find_test(explanation, "Jump to turn"), nullptr) << "nothing was pooled";
+        for (const ExplainedTest& test : explanation.tests)
+          EXPECT_TRUE(test.passed) << test.sentence;
+        continue;
+      }
+      EXPECT_TRUE(contains(explanation.headline, "no border between regions"))
+          << explanation.headline;
+      EXPECT_FALSE(find_test(explanation, "Region border")->passed);
     }
+    EXPECT_EQ(sharp, 12 * divisions);
+  }
+}
+
+TEST(ExplainEdge, ByTheJumpABorderCountsAsAWhole) {
+  const Document document = segmented_mould("normal_jump");
+  const double threshold = document.find_sharp_lines->parameters.at("angle");
+  int borders = 0, weak = 0, fitted = 0;
+  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
+    const BorderEdge* border = candidate(document, e);
+    if (!border || border->exact) continue;
+    const Explanation explanation = explain_edge(document, e);
+    const ExplainedTest* jump = find_test(explanation, "Normal jump");
+    ASSERT_NE(jump, nullptr);
+    EXPECT_EQ(jump->threshold, threshold);
+    if (contains(jump->sentence, "as a whole")) {
+      ++borders;
+      EXPECT_FLOAT_EQ(static_cast<float>(jump->value), border->height);
+      EXPECT_EQ(jump->passed, border->height > threshold);
+    }
+    if (!explanation.holds && border->height <= threshold) {
+      ++weak;
+      EXPECT_TRUE(contains(explanation.headline, "not above the threshold") ||
+                  contains(explanation.headline, "parts no two regions"))
+          << explanation.headline;
+    }
+    // One value per meaning: the chart shows what the test noted.
+    if (!explanation.profile || !explanation.profile->fitted()) continue;
+    ++fitted;
+    EXPECT_NEAR(explanation.profile->turn(), border->place.turn, 1e-2);
+    EXPECT_NEAR(std::abs(explanation.profile->jump()), std::abs(border->place.jump), 1e-2);
+  }
+  EXPECT_GT(borders, 300);
+  EXPECT_GT(weak, 20);
+  EXPECT_GT(fitted, 300);
+}
+
+TEST(ExplainEdge, ByTheJumpTheLeastLengthAndCorrectionsAreNamed) {
+  Document document = segmented_mould("normal_jump");
+  nlohmann::json parameters = document.find_sharp_lines->parameters;
+  const auto is_on_line = [&](EdgeId e) { return document.lines.is_sharp(e); };
+  EdgeId on_line = 0;
+  while (!is_on_line(on_line)) ++on_line;
+  // Longer than all lines together: all go.
+  double length = 0.0;
+  for (const LinePtr& line : document.lines.lines) length += line->length;
+  parameters["min_length"] = 2.0 * length;
+  const Document none = applied(document, {"find_sharp_lines", parameters});
+  const Explanation explanation = explain_edge(none, on_line);
+  EXPECT_TRUE(contains(explanation.headline, "shorter than min_length")) << explanation.headline;
+  const ExplainedTest* test = find_test(explanation, "Length");
+  ASSERT_NE(test, nullptr);
+  EXPECT_FALSE(test->passed);
+  EXPECT_LE(test->value, length * 1.0001);
+  EXPECT_EQ(test->threshold, 2.0 * length);
+  // And only concave ones.
+  parameters = document.find_sharp_lines->parameters;
+  parameters["convexity"] = "concave";
+  const Document concave = applied(document, {"find_sharp_lines", parameters});
+  int outside = 0;
+  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e)
+    if (is_on_line(e) && !concave.lines.is_sharp(e) && candidate(document, e)->place.turn > 0.0F)
+      outside += contains(explain_edge(concave, e).headline, "outside the bounds");
+  EXPECT_GT(outside, 50);
+
+  const std::uint32_t line = document.lines.lines.front()->id;
+  const Document deleted = applied(document, {"delete_lines", {{"lines", {line}}}});
+  for (EdgeId e = 0; e < document.mesh->edge_count(); ++e)
+    if (is_on_line(e) && !deleted.lines.is_sharp(e)) {
+      ASSERT_TRUE(contains(explain_edge(deleted, e).headline, "correction took it away"))
+          << explain_edge(deleted, e).headline;
+    }
+}
+
+TEST(ExplainEdge, ConcaveAndConvexAreToldApart) {
+  for (const char* method : methods) {
+    const Document document = with_lines(document_of(stepped_plate(10.0, 20.0, 4.0, 1.0)), method);
+    int sharp = 0;
+    for (EdgeId e = 0; e < document.mesh->edge_count(); ++e)
+      if (document.lines.is_sharp(e)) {
+        ++sharp;
+        EXPECT_TRUE(contains(explain_edge(document, e).headline,
+                             document.curvatures->beta[e] > 0 ? "convex 90.0" : "concave 90.0"));
+      }
+    EXPECT_EQ(sharp, 40) << method;
+  }
 }
 
 TEST(ExplainEdge, TheBorderAndStepsThatWereNotRunAreNamed) {
@@ -118,7 +231,7 @@ TEST(ExplainEdge, TheBorderAndStepsThatWereNotRunAreNamed) {
 }
 
 TEST(ExplainEdge, WhatACorrectionTookAwayIsSaidToBeSo) {
-  Document document = applied(document_of(divided_cube(10.0, 4)), {"find_sharp_lines", {}});
+  Document document = with_lines(document_of(divided_cube(10.0, 4)), "walk");
   EdgeId taken = 0;
   while (!document.lines.is_sharp(taken)) ++taken;
   std::vector<Origin> edges(document.mesh->edge_count());
@@ -136,20 +249,26 @@ TEST(ExplainEdge, WhatACorrectionTookAwayIsSaidToBeSo) {
 }
 
 TEST(Explain, AgreesWithTheDocumentOnEveryEdgeAndFaceOfTheSampleMould) {
-  const Document document = segmented_mould();
-  ASSERT_FALSE(document.lines.lines.empty());
-  ASSERT_FALSE(document.partitions.partitions.empty());
-  expect_agreement(document);
+  for (const char* method : methods) {
+    SCOPED_TRACE(method);
+    const Document document = segmented_mould(method);
+    ASSERT_FALSE(document.lines.lines.empty());
+    ASSERT_FALSE(document.partitions.partitions.empty());
+    expect_agreement(document);
+  }
 }
 
 TEST(Explain, AgreesAfterStepsThatChangedTheMesh) {
-  const Document document = segmented_mould();
-  expect_agreement(applied(document, {"equilateralize", {}}));
-  expect_agreement(applied(document, {"simplify", {}}));
+  for (const char* method : methods) {
+    SCOPED_TRACE(method);
+    const Document document = segmented_mould(method);
+    expect_agreement(applied(document, {"equilateralize", {}}));
+    expect_agreement(applied(document, {"simplify", {}}));
+  }
 }
 
 TEST(ExplainEdge, NamesTheTreatmentThatTookAnEdge) {
-  const Document document = segmented_mould();
+  const Document document = segmented_mould("walk");
   const Mesh& mesh = *document.mesh;
   const nlohmann::json& parameters = document.find_sharp_lines->parameters;
   SharpLineOptions options;
@@ -235,7 +354,7 @@ TEST(ExplainFace, TooFewFacesForAPartition) {
 }
 
 TEST(ExplainFace, JoinedWithoutAVoteAndFilledHolesAreToldApart) {
-  const Document document = segmented_mould();
+  const Document document = segmented_mould("walk");
   int joined = 0, filled = 0;
   for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
     const Explanation explanation = explain_face(document, f);

@@ -39,7 +39,9 @@ inline Document document_of(const Triangles& triangles) {
   document.scan = value_of(make_scan(std::move(file), "memory"));
   document.mesh = document.scan->mesh;
   document.curvatures = curvatures_of(*document.mesh);
-  document.opened = {document.mesh, document.curvatures, nullptr};
+  document.evidence =
+      std::make_shared<const SharedLineEvidence>(document.mesh, document.curvatures);
+  document.opened = {document.mesh, document.curvatures, nullptr, document.evidence};
   document.boundaries = std::make_shared<const Boundaries>();
   return document;
 }

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
+#include <QDir>
 #include <QDockWidget>
 #include <QPushButton>
 #include <QTemporaryDir>
@@ -15,6 +16,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/corrections_panel.h"
 #include "ui/panels/explanation_panel.h"
+#include "ui/panels/profile_chart.h"
 #include "ui/panels/worklist_panel.h"
 
 namespace arris::ui {
@@ -132,8 +134,14 @@ TEST_F(GuidanceTest, AnEdgeOnALineAndOneOffItAreExplained) {
       << panel->text().toStdString();
   EXPECT_TRUE(panel->isVisible());
   EXPECT_TRUE(panel->text().contains("In partition"));
-  EXPECT_TRUE(panel->text().contains("|IHe|"));
+  EXPECT_TRUE(panel->text().contains("Exterior angle"));
   EXPECT_TRUE(panel->text().contains("90°"));
+  run({{"find_sharp_lines", {{"method", "walk"}}}});
+  ASSERT_EQ(document().lines.lines.size(), 12u);
+  window->explanations().explain(pick);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->text().contains("|IHe|"); }, patience));
+  EXPECT_TRUE(panel->text().contains("90°"));
+  EXPECT_FALSE(panel->findChild<ProfileChart*>()->isVisible()) << "the walk measures no profile";
 
   for (EdgeId e = 0; e < document().mesh->edge_count(); ++e)
     if (std::abs(document().curvatures->beta[e]) < 1e-9 && !document().lines.is_sharp(e)) {
@@ -143,6 +151,47 @@ TEST_F(GuidanceTest, AnEdgeOnALineAndOneOffItAreExplained) {
   window->explanations().explain(pick);
   ASSERT_TRUE(QTest::qWaitFor([&] { return panel->text().contains("Not on a line"); }, patience));
   EXPECT_TRUE(panel->text().contains("failed"));
+}
+
+TEST_F(MainWindowTest, TheProfileAcrossALineOfAScanIsShown) {
+  open_sample();
+  run_both();
+  window->findChild<QDockWidget*>("explanation")->raise();
+  auto* panel = window->findChild<ExplanationPanel*>();
+  auto* chart = panel->findChild<ProfileChart*>();
+  EXPECT_FALSE(chart->isVisible());
+  const auto on_line = find([&](const Pick& p) {
+    if (p.edge == no_id || !document().lines.is_sharp(p.edge)) return false;
+    const BorderEdge* border = document().evidence->known()->candidates.find(p.edge);
+    return border && std::abs(border->place.jump) > 50.0F;
+  });
+  ASSERT_TRUE(on_line);
+  const Pick pick = *window->view().pick(*on_line);
+  const BorderPlace place = document().evidence->known()->candidates.find(pick.edge)->place;
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, *on_line);
+  panel->window()->findChild<QDockWidget*>("explanation")->raise();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->text().contains("On line"); }, patience))
+      << panel->text().toStdString();
+  EXPECT_TRUE(panel->text().contains("Normal jump"));
+  EXPECT_TRUE(panel->text().contains("Jump to turn"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return chart->isVisible(); }, patience));
+  EXPECT_GE(chart->width(), 260);
+  EXPECT_GE(chart->height(), 160);
+  ASSERT_TRUE(chart->profile() && chart->profile()->fitted());
+  EXPECT_GT(chart->profile()->dots.size(), 15u);
+  EXPECT_NEAR(chart->profile()->jump(), place.jump, 0.01) << "one value per meaning";
+  const QString folder = qEnvironmentVariable("ARRIS_SHOTS");
+  if (!folder.isEmpty()) {
+    QTest::qWait(200);
+    window->grab().save(QDir(folder).filePath("explain_profile.png"));
+    QTest::keyClick(window.get(), Qt::Key_D, Qt::ControlModifier);
+    QTest::qWait(200);
+    window->grab().save(QDir(folder).filePath("explain_profile_dark.png"));
+    QTest::keyClick(window.get(), Qt::Key_D, Qt::ControlModifier);
+  }
+  // Where nothing is drawn any more nothing is shown.
+  run({"find_sharp_lines", {{"method", "walk"}}});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !chart->isVisible(); }, patience));
 }
 
 TEST_F(GuidanceTest, ALiftedDeletionBringsTheLineBack) {
@@ -187,6 +236,8 @@ TEST_F(GuidanceTest, CorrectionsCanBeLeftOutWhenFindingAgain) {
 TEST_F(GuidanceTest, TheStabilityCurveTellsHowManyLinesAThresholdWouldGive) {
   window->set_field(Field::ihe);
   HistogramPanel& histogram = window->histogram();
+  EXPECT_TRUE(histogram.curve().label.isEmpty()) << "lines are not found by IHe";
+  window->set_field(Field::normal_jump);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !histogram.curve().points.empty(); }, patience));
   EXPECT_EQ(histogram.curve().label, "lines");
   // A box has its twelve lines at any threshold below a right angle.

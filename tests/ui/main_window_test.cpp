@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
 #include <QDir>
 #include <QFile>
 #include <QImage>
@@ -24,6 +25,8 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/element_table.h"
 #include "ui/panels/history_panel.h"
+#include "ui/panels/steps_panel.h"
+#include "ui/window/hover_text.h"
 
 namespace arris::ui {
 namespace {
@@ -61,9 +64,127 @@ TEST_F(MainWindowTest, AWrongFileIsToldInASentenceAndTheOpenPartStays) {
   EXPECT_EQ(document().mesh, before);
 }
 
+TEST_F(MainWindowTest, TheNormalJumpIsWorkedOutBesideTheWindowAndShown) {
+  open_sample();
+  EXPECT_EQ(document().evidence->known(), nullptr);
+  QTest::keyClick(window.get(), Qt::Key_J, Qt::AltModifier);
+  ASSERT_EQ(window->fields().field(), Field::normal_jump);
+  EXPECT_TRUE(window->fields().working()) << "the window does not wait";
+  EXPECT_TRUE(window->fields().distribution().empty());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window->fields().working(); }, patience));
+  const LineEvidencePtr evidence = document().evidence->known();
+  ASSERT_NE(evidence, nullptr);
+  EXPECT_FALSE(window->fields().distribution().empty());
+  EXPECT_GT(window->fields().distribution().max(), 45.0);
+  EXPECT_LT(window->fields().distribution().min(), -45.0) << "concave ones are negative";
+  // Beside IHe in the status bar.
+  Pick pick;
+  pick.vertex = document().mesh->edge(0)[0];
+  pick.edge = 0;
+  EXPECT_TRUE(hover_text(document(), pick).contains("jump ")) << "known by now";
+  // Another field before it is there: nothing of it comes later.
+  run({"flip_orientation", nlohmann::json::object()});
+  EXPECT_EQ(window->fields().field(), Field::normal_jump);
+  window->set_field(Field::kabs);
+  EXPECT_FALSE(window->fields().working());
+  EXPECT_GE(window->fields().distribution().min(), 0.0);
+}
+
+TEST_F(MainWindowTest, TheThresholdIsOnTheFieldThatLinesAreFoundBy) {
+  open_sample();
+  const auto handles_on = [&](Field field) {
+    window->set_field(field);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !window->fields().working(); }, patience));
+    QStringList names;
+    for (const ThresholdHandle& handle : window->histogram().handles())
+      if (handle.name.startsWith("TV_")) names << handle.name;
+    return names.join(' ').toStdString();
+  };
+  EXPECT_EQ(handles_on(Field::normal_jump), "TV_IH");
+  EXPECT_EQ(handles_on(Field::ihe), "");
+  EXPECT_EQ(handles_on(Field::ikabs), "") << "TV_IK is of the walk";
+  run({"find_sharp_lines", {{"method", "walk"}}});
+  EXPECT_EQ(handles_on(Field::normal_jump), "");
+  EXPECT_EQ(handles_on(Field::ihe), "TV_IH");
+  EXPECT_EQ(handles_on(Field::ikabs), "TV_IK");
+}
+
+TEST_F(MainWindowTest, F5FindsLinesAndPartitionsOnTheScanItself) {
+  open_sample();
+  run_both();
+  EXPECT_EQ(rows(), 3u);
+  EXPECT_FALSE(document().simplify || document().equilateralize);
+  EXPECT_EQ(document().mesh, document().opened.mesh);
+  EXPECT_EQ(document().line_method(), LineMethod::normal_jump);
+  EXPECT_FALSE(window->findChild<StepsPanel*>()->values("find_sharp_lines").contains("candidates"));
+}
+
+TEST_F(MainWindowTest, ThePapersFlowIsOneClickAndEachStepIsUndone) {
+  open_sample();
+  run_both();
+  const std::string before = hash_of(document());
+  const std::uint32_t ran = rows();
+  QAction* paper = nullptr;
+  for (QAction* action : window->findChildren<QAction*>())
+    if (action->text().remove('&').startsWith("Run the paper's flow")) paper = action;
+  ASSERT_NE(paper, nullptr);
+  ASSERT_TRUE(paper->isEnabled());
+  EXPECT_TRUE(paper->toolTip().contains("simplify"));
+  paper->trigger();
+  EXPECT_FALSE(paper->isEnabled()) << "while it runs";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == ran + 4 && idle(); }, patience));
+  EXPECT_TRUE(document().simplify && document().equilateralize && document().find_partitions);
+  for (const char* name : {"simplify", "find_sharp_lines", "equilateralize", "find_partitions"})
+    EXPECT_FALSE(document().step(name)->out_of_date) << name;
+  EXPECT_EQ(document().line_method(), LineMethod::walk);
+  EXPECT_LT(document().mesh->face_count(), document().opened.mesh->face_count());
+  for (std::uint32_t head = ran + 4; head > ran; --head) {
+    QTest::keySequence(window.get(), QKeySequence::Undo);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return idle() && window->session().history().head() == head - 1; }, patience));
+  }
+  EXPECT_EQ(hash_of(document()), before);
+}
+
+TEST_F(MainWindowTest, TheMethodOnTheCardChangesHowLinesAreFound) {
+  open_sample();
+  auto* panel = window->findChild<StepsPanel*>();
+  const QVariantMap jump = panel->values("find_sharp_lines");
+  EXPECT_EQ(jump["method"], "normal_jump");
+  EXPECT_FALSE(jump.contains("candidates"));
+  QComboBox* method = nullptr;
+  for (QComboBox* box : panel->findChildren<QComboBox*>())
+    if (box->accessibleName() == "Method") method = box;
+  ASSERT_NE(method, nullptr);
+  const auto choose = [&](const char* key) {
+    method->setFocus();
+    const int to = method->findData(key);
+    while (method->currentIndex() != to)
+      QTest::keyClick(method, method->currentIndex() < to ? Qt::Key_Down : Qt::Key_Up);
+  };
+  choose("walk");
+  const QVariantMap walk = panel->values("find_sharp_lines");
+  EXPECT_EQ(walk["method"], "walk");
+  EXPECT_EQ(walk["candidates"], 3);
+  EXPECT_EQ(walk["bridge_gap"], 0.0);
+  EXPECT_NE(walk["angle"], jump["angle"]) << "another measure, another default";
+  EXPECT_NE(walk["min_length"], jump["min_length"]);
+  QTest::keyClick(window.get(), Qt::Key_L, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_sharp_lines && idle(); }, patience));
+  EXPECT_EQ(document().line_method(), LineMethod::walk);
+  const std::size_t by_walk = document().lines.lines.size();
+  choose("normal_jump");
+  EXPECT_EQ(panel->values("find_sharp_lines")["angle"], jump["angle"]);
+  QTest::keyClick(window.get(), Qt::Key_L, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 3u && idle(); }, patience));
+  EXPECT_EQ(document().line_method(), LineMethod::normal_jump);
+  EXPECT_LT(document().lines.lines.size(), by_walk);
+}
+
 TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
   open_sample();
-  window->set_field(Field::ihe);
+  window->set_field(Field::normal_jump);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window->fields().working(); }, patience));
   HistogramPanel& histogram = window->histogram();
   ASSERT_EQ(histogram.handles().size(), 1u);
   EXPECT_EQ(histogram.handles()[0].name, "TV_IH");
@@ -88,9 +209,28 @@ TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
               histogram.handles()[0].value, 0.05);
 }
 
+TEST_F(MainWindowTest, DraggingTheAngleOfTheWalkLeavesOneHistoryEntry) {
+  open_sample();
+  run({"find_sharp_lines", {{"method", "walk"}}});
+  window->set_field(Field::ihe);
+  HistogramPanel& histogram = window->histogram();
+  ASSERT_EQ(histogram.handles().size(), 1u);
+  EXPECT_TRUE(histogram.handles()[0].reading.startsWith("TV_IK"));
+  const double before = histogram.handles()[0].value;
+  const QPoint start = histogram.handle_position(0);
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, start);
+  QTest::mouseMove(&histogram, start + QPoint(20, 0));
+  QTest::qWait(50);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(20, 0));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 3 && idle(); }, patience));
+  EXPECT_GT(document().find_sharp_lines->parameters["angle"].get<double>(), before);
+  EXPECT_EQ(document().line_method(), LineMethod::walk);
+}
+
 TEST_F(MainWindowTest, EscapeWhileDraggingRestores) {
   open_sample();
-  window->set_field(Field::ihe);
+  window->set_field(Field::normal_jump);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !window->fields().working(); }, patience));
   HistogramPanel& histogram = window->histogram();
   const double before = histogram.handles()[0].value;
   const QPoint start = histogram.handle_position(0);
@@ -199,7 +339,7 @@ TEST_F(MainWindowTest, UndoRedoAndTravel) {
   // The menu names what it would do.
   bool named = false;
   for (const QAction* action : window->findChildren<QAction*>())
-    named = named || action->text().startsWith("Redo: Simplify");
+    named = named || action->text().startsWith("Redo: Find sharp lines");
   EXPECT_TRUE(named);
 }
 

@@ -88,7 +88,7 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   shot("01_open");
 
   // Prepare, find, and tune the sharp angle by its handle.
-  press(Qt::Key_F5);
+  press(Qt::Key_F5, Qt::ShiftModifier);  // the paper's flow
   ASSERT_TRUE(settles([&] { return document().find_partitions.has_value(); }));
   EXPECT_TRUE(document().simplify.has_value());
   EXPECT_LT(document().mesh->face_count(), document().opened.mesh->face_count());

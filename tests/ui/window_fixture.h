@@ -52,6 +52,10 @@ class MainWindowTest : public ::testing::Test {
     QTest::keyClick(window.get(), Qt::Key_F5);
     ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
   }
+  void run_paper_flow() {
+    QTest::keyClick(window.get(), Qt::Key_F5, Qt::ShiftModifier);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+  }
   void run(const Operation& operation) {
     window->session().run({operation});
     ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));

@@ -5,17 +5,20 @@
 #include <QVBoxLayout>
 
 #include "ui/panels/controls.h"
+#include "ui/panels/profile_chart.h"
 
 namespace arris::ui {
 
 ExplanationPanel::ExplanationPanel(QWidget* parent)
-    : QWidget(parent), browser_(new QTextBrowser(this)) {
+    : QWidget(parent), browser_(new QTextBrowser(this)), chart_(new ProfileChart(this)) {
   browser_->setOpenLinks(false);
   browser_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   browser_->setAccessibleName(tr("Explanation"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
-  column->addWidget(browser_);
+  column->addWidget(browser_, 1);
+  column->addWidget(chart_);
+  chart_->hide();
 }
 
 void ExplanationPanel::set_sections(std::vector<ExplanationSection> sections) {
@@ -70,6 +73,11 @@ void ExplanationPanel::refresh() {
     html += QStringLiteral("</table>");
   }
   browser_->setHtml(html);
+  std::optional<JumpProfile> profile;
+  for (const ExplanationSection& section : sections_)
+    if (section.profile) profile = section.profile;
+  chart_->setVisible(profile.has_value());
+  chart_->set_profile(std::move(profile));
 }
 
 }  // namespace arris::ui

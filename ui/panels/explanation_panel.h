@@ -1,13 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <QString>
 #include <QWidget>
 
+#include "core/sharp_lines/jump_profile.h"
+
 class QTextBrowser;
 
 namespace arris::ui {
+
+class ProfileChart;
 
 /// One test that an edge or face went through, ready to be read.
 struct ExplanationRow {
@@ -22,9 +27,10 @@ struct ExplanationSection {
   QString headline;  ///< "On line 12, found; convex 34.2 degrees."
   bool holds = false;
   std::vector<ExplanationRow> rows;
+  std::optional<JumpProfile> profile;  ///< Across the edge, where there is one to show.
 };
 
-/// Explanations, as tables of tests that passed or failed.
+/// Explanations, as tables of tests that passed or failed, with the profile across the edge.
 class ExplanationPanel : public QWidget {
   Q_OBJECT
  public:
@@ -42,6 +48,7 @@ class ExplanationPanel : public QWidget {
   void refresh();
 
   QTextBrowser* browser_;
+  ProfileChart* chart_;
   std::vector<ExplanationSection> sections_;
   QString note_;
 };

@@ -443,7 +443,8 @@ void HistogramChart::paint(QPainter& painter) const {
   if (!shown()) {
     painter.setPen(muted_text(palette));
     painter.drawText(at.plot, Qt::AlignCenter | Qt::TextWordWrap,
-                     QObject::tr("No distribution to show"));
+                     histogram.why_none.isEmpty() ? QObject::tr("No distribution to show")
+                                                  : histogram.why_none);
     return;
   }
   // Kmin and Kmax: what lies between them is what would be found.

@@ -26,6 +26,7 @@ struct Histogram {
   std::vector<double> weights;  ///< n bins: share of the area, 0 to 1.
   QString title;                ///< "Kabs (1/mm²)".
   bool logarithmic = false;     ///< Bin edges are spaced evenly in the logarithm.
+  QString why_none;             ///< Said where there are no bins; empty: that there are none.
 };
 
 /// A threshold as a handle on the histogram.

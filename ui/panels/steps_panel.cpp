@@ -150,7 +150,8 @@ class Field {
            parameter_.label == other.label && parameter_.tooltip == other.tooltip &&
            parameter_.least == other.least && parameter_.most == other.most &&
            parameter_.decimals == other.decimals && parameter_.suffix == other.suffix &&
-           parameter_.choices == other.choices && parameter_.choice_labels == other.choice_labels;
+           parameter_.choices == other.choices && parameter_.choice_labels == other.choice_labels &&
+           parameter_.hangs_on == other.hangs_on;
   }
 
   /// A new value from the document is shown unless the user is at work here. The same value again
@@ -163,6 +164,12 @@ class Field {
     if (touched_ && focused) return;
     touched_ = false;
     show();
+  }
+
+  /// Another choice was made that this parameter hangs on: what was edited stays.
+  void rebase(const QVariant& value) {
+    parameter_.value = value;
+    if (!touched_) show();
   }
 
   std::function<void()> edited;
@@ -423,15 +430,16 @@ class CardFrame : public QWidget {
 
   bool fits(const StepCard& card) const;
   void show_card(const StepCard& card);
+  /// Shows the parameters that the choices have a use for, and no others.
+  void show_hanging();
   void set_busy(bool busy) {
     busy_ = busy;
     allow_run();
   }
   QVariantMap values() const {
     QVariantMap map;
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      map.insert(card_.parameters[i].key, fields_[i]->value());
-    }
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (value_of(i).isValid()) map.insert(card_.parameters[i].key, fields_[i]->value());
     return map;
   }
   const StepCard& card() const { return card_; }
@@ -448,7 +456,23 @@ class CardFrame : public QWidget {
   }
 
  private:
+  void follow_choices() {
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (!card_.parameters[i].hangs_on.isEmpty() && value_of(i).isValid())
+        fields_[i]->rebase(value_of(i));
+    show_hanging();
+  }
   bool available() const { return card_.state != StepState::unavailable; }
+  /// The value that the card gives a parameter, by the choice it hangs on; invalid where the choice
+  /// has no use for it.
+  QVariant value_of(std::size_t i) const {
+    const StepParameter& parameter = card_.parameters[i];
+    if (parameter.hangs_on.isEmpty()) return parameter.value;
+    for (std::size_t k = 0; k < fields_.size(); ++k)
+      if (card_.parameters[k].key == parameter.hangs_on)
+        return parameter.value_of.value(fields_[k]->value().toString());
+    return {};
+  }
   void allow_run();
   void build_controls(QVBoxLayout* column);
   void arrange_form();
@@ -502,7 +526,10 @@ void CardFrame::build_controls(QVBoxLayout* column) {
   for (const StepParameter& parameter : card_.parameters) {
     fields_.push_back(make_field(parameter, this));
     Field* field = fields_.back().get();
-    field->edited = [this] { allow_run(); };
+    field->edited = [this, chooses = parameter.kind == StepParameter::Kind::choice] {
+      if (chooses) follow_choices();
+      allow_run();
+    };
     const bool unit = field->wide() && !parameter.suffix.trimmed().isEmpty();
     auto* label =
         new QLabel(unit ? QStringLiteral("%1 (%2)").arg(parameter.label, parameter.suffix.trimmed())
@@ -553,13 +580,13 @@ void CardFrame::arrange_form() {
   while (true) {
     labels = 0;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (beside[i]) labels = std::max(labels, label_width(i));
+      if (beside[i] && value_of(i).isValid()) labels = std::max(labels, label_width(i));
     }
     // The row that needs most goes first, until the others fit.
     std::size_t worst = fields_.size();
     bool cut = false;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (!beside[i]) continue;
+      if (!beside[i] || !value_of(i).isValid()) continue;
       cut = cut || labels + editor_width(i) > room;
       if (worst == fields_.size() ||
           label_width(i) + editor_width(i) > label_width(worst) + editor_width(worst)) {
@@ -608,11 +635,25 @@ void CardFrame::show_card(const StepCard& card) {
     if (!card.time.isEmpty()) state += QStringLiteral(" · ") + card.time;
     result_->setText(card.result);
     result_->setVisible(!card.result.isEmpty());
-    for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->update(card.parameters[i].value);
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (card.parameters[i].hangs_on.isEmpty()) fields_[i]->update(card.parameters[i].value);
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (!card.parameters[i].hangs_on.isEmpty() && value_of(i).isValid())
+        fields_[i]->update(value_of(i));
+    show_hanging();
     allow_run();
   }
   state_->setText(state);
   update();
+}
+
+void CardFrame::show_hanging() {
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    if (card_.parameters[i].hangs_on.isEmpty()) continue;
+    labels_[i]->setVisible(value_of(i).isValid());
+    fields_[i]->widget()->setVisible(value_of(i).isValid());
+  }
+  arrange_form();
 }
 
 void CardFrame::allow_run() {

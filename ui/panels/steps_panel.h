@@ -23,6 +23,11 @@ struct StepParameter {
   QString suffix;       ///< " °", " mm", " 1/mm²".
   QStringList choices;  ///< Keys.
   QStringList choice_labels;
+  /// Key of the choice that this parameter hangs on; empty: on none. It is shown, and among the
+  /// values, where `value_of` has the chosen key, and takes that value when the choice is made
+  /// unless it was edited. `value` does not count then.
+  QString hangs_on;
+  QVariantMap value_of;
 };
 
 enum class StepState { unavailable, not_run, done, out_of_date };

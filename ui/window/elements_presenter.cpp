@@ -40,13 +40,14 @@ ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
       {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Origin"), tr("Edges")},
       {tr("Id of the line; it keeps it while thresholds move"),
        tr("Convex or concave; closed lines have no ends"), tr("Length along the line"),
-       tr("Mean exterior angle (IHe), positive where convex"),
+       tr("Mean angle across it, by what lines are found by: the normal jump, or IHe (walk); "
+          "positive where convex"),
        tr("Found, or extended, merged or drawn by hand; locked lines are not changed by finding"),
        tr("Number of sharp edges")},
       parent);
   table->set_empty_text(
       tr("No sharp lines yet. Run the step “Sharp lines”, or drag TV_IH on the "
-         "histogram of IHe."));
+         "histogram of the normal jump."));
   return table;
 }
 

@@ -28,6 +28,7 @@ ExplanationSection section_of(const QString& title, const Explanation& explanati
     section.rows.push_back({QString::fromStdString(test.name), with_unit(test.value, test.unit),
                             with_unit(test.threshold, test.unit), test.passed,
                             QString::fromStdString(test.sentence)});
+  section.profile = explanation.profile;
   return section;
 }
 

@@ -23,13 +23,17 @@ const std::vector<QColor>& shape_colours() {
   return colours;
 }
 
+std::shared_ptr<const std::vector<double>> jump_values(const LineEvidence& evidence) {
+  return std::make_shared<const std::vector<double>>(evidence.jump.begin(), evidence.jump.end());
+}
+
 /// The values of a field, and the place of its largest where it points that out.
 struct FieldOfPart {
   std::shared_ptr<const std::vector<double>> values;
   std::optional<ViewMark> mark;
 };
 
-/// `zones`: needed by Deviation alone.
+/// Any but the normal jump. `zones`: needed by Deviation alone.
 FieldOfPart field_of(Field field, const Mesh& mesh, const Curvatures& curvatures,
                      const ErrorZones* zones) {
   FieldOfPart part;
@@ -53,8 +57,12 @@ FieldOfPart field_of(Field field, const Mesh& mesh, const Curvatures& curvatures
   return part;
 }
 
-/// Where the range of a field is known beforehand, from 0.
-double most_of(Field field) { return field == Field::deviation ? 100.0 : 1.0; }
+/// The greatest value, where the range of a field is known beforehand, from 0.
+std::optional<double> most_of(Field field) {
+  if (field == Field::deviation) return 100.0;
+  if (field == Field::face_quality) return 1.0;
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -69,7 +77,12 @@ QString title_of(Field field) {
 
 FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramPanel* histogram,
                                QObject* parent)
-    : QObject(parent), view_(view), panel_(panel), histogram_(histogram) {
+    : QObject(parent),
+      view_(view),
+      panel_(panel),
+      histogram_(histogram),
+      work_(new LatestWork(this)),
+      other_work_(new LatestWork(this)) {
   QStringList names, tooltips;
   for (const FieldInfo& info : field_table()) {
     names << title_of(info.field);
@@ -77,10 +90,10 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
     ColourMapState& s = states_[static_cast<std::size_t>(info.field)];
     s.field = static_cast<int>(info.field);
     if (info.is_signed) s.scale.map = ColourMap::diverging;
-    if (!info.is_curvature) {  // shares of a whole: pictures compare without more ado
-      s.scale.map = ColourMap::viridis;
+    if (const std::optional<double> most = most_of(info.field)) {
+      s.scale.map = ColourMap::viridis;  // pictures compare without more ado
       s.range = ColourMapState::Range::typed;
-      s.scale.max = most_of(info.field);
+      s.scale.max = *most;
     }
   }
   panel_->set_fields(names, tooltips);
@@ -94,6 +107,7 @@ void FieldPresenter::show(const Document& document) {
   mesh_ = document.mesh;
   curvatures_ = curvatures;
   zones_ = document.zones;
+  evidence_ = document.evidence;
   panel_->set_field_available(static_cast<int>(Field::deviation), is_available(Field::deviation),
                               why_not_available());
   if (!is_available(field_)) field_ = Field::kabs;
@@ -118,17 +132,45 @@ void FieldPresenter::take(const ColourMapState& wanted) {
   refresh();
 }
 
+void FieldPresenter::work_out(LatestWork* work, const SharedLineEvidencePtr& evidence,
+                              std::function<void(const LineEvidence&)> then) {
+  const auto report = [this](double fraction, std::string_view what) {
+    QMetaObject::invokeMethod(this, [this, fraction, what = text(what)] {
+      if (working()) emit progress(fraction, what);
+    });
+  };
+  work->start([evidence](const Context& context) { return evidence->get(context); },
+              [then = std::move(then)](const Result<LineEvidencePtr>& found) {
+                if (found) then(**found);
+              },
+              report);
+}
+
 void FieldPresenter::load() {
+  const bool worked = working();
+  work_->cancel();
   mark_.reset();
-  if (!curvatures_) {
-    values_.reset();
-    distribution_ = {};
-    return;
+  take_values(nullptr);
+  if (curvatures_ && field_ == Field::normal_jump) {
+    if (const LineEvidencePtr known = evidence_->known())
+      take_values(jump_values(*known));
+    else
+      work_out(work_, evidence_, [this](const LineEvidence& evidence) {
+        emit working_changed(false);
+        take_values(jump_values(evidence));
+        refresh();
+      });
+  } else if (curvatures_) {
+    const FieldOfPart part = field_of(field_, *mesh_, *curvatures_, zones_.get());
+    mark_ = part.mark;
+    take_values(part.values);
   }
-  const FieldOfPart part = field_of(field_, *mesh_, *curvatures_, zones_.get());
-  values_ = part.values;
-  mark_ = part.mark;
-  distribution_ = Distribution(*values_, field_weights(*mesh_, field_));
+  if (worked != working()) emit working_changed(working());
+}
+
+void FieldPresenter::take_values(std::shared_ptr<const std::vector<double>> values) {
+  values_ = std::move(values);
+  distribution_ = values_ ? Distribution(*values_, field_weights(*mesh_, field_)) : Distribution();
 }
 
 ViewField FieldPresenter::view_field(std::shared_ptr<const std::vector<double>> values) const {
@@ -146,8 +188,17 @@ ViewField FieldPresenter::view_field(std::shared_ptr<const std::vector<double>> 
   return shown;
 }
 
-std::optional<ViewField> FieldPresenter::of(const Document& document) const {
+std::optional<ViewField> FieldPresenter::of(const Document& document) {
   if (document.empty() || (field_ == Field::deviation && !document.zones)) return std::nullopt;
+  if (field_ == Field::normal_jump) {
+    if (const LineEvidencePtr known = document.evidence->known())
+      return view_field(jump_values(*known));
+    if (other_evidence_ != document.evidence) {
+      other_evidence_ = document.evidence;
+      work_out(other_work_, other_evidence_, [this](const LineEvidence&) { emit changed(); });
+    }
+    return std::nullopt;
+  }
   return view_field(
       field_of(field_, *document.mesh, *document.shown_curvatures(), document.zones.get()).values);
 }
@@ -170,7 +221,9 @@ void FieldPresenter::refresh() {
 
   if (!values_) {
     view_->set_field(std::nullopt);
-    histogram_->set_histogram({}, s.scale);
+    Histogram none;
+    if (working()) none.why_none = tr("Working out the normal jump …");
+    histogram_->set_histogram(none, s.scale);
     emit changed();
     return;
   }
@@ -187,9 +240,9 @@ void FieldPresenter::refresh() {
     emit changed();
     return;
   }
-  if (!info.is_curvature) {
+  if (const std::optional<double> most = most_of(field_)) {
     low = 0.0;
-    high = most_of(field_);
+    high = *most;
   } else if (!info.is_signed) {
     histogram.logarithmic = true;
     low = std::max(distribution_.quantile(0.002), high * 1e-6);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include <QObject>
@@ -11,10 +12,13 @@
 #include "ui/panels/colour_map_panel.h"
 #include "ui/panels/histogram_panel.h"
 #include "ui/view/mesh_view.h"
+#include "ui/window/latest_work.h"
 
 namespace arris::ui {
 
 /// Keeps view, colour map panel and histogram on one field: which one, in what colours and range.
+/// The normal jump takes a while on a large mesh where nobody asked for it before: it is worked out
+/// beside the UI thread, and until it is there the part is shown plain.
 class FieldPresenter : public QObject {
   Q_OBJECT
  public:
@@ -28,31 +32,44 @@ class FieldPresenter : public QObject {
   static QString why_not_available();  ///< One sentence, for tooltips.
   void set_field(Field field);
   Field field() const { return field_; }
+  /// The field is still being worked out.
+  bool working() const { return work_->running(); }
   const Distribution& distribution() const { return distribution_; }
   /// The field shown, in the same colours and range, of another document; absent where it has not
-  /// got it.
-  std::optional<ViewField> of(const Document& document) const;
+  /// got it, or not yet: then changed() tells when it has.
+  std::optional<ViewField> of(const Document& document);
   const ColourScale& scale() const { return states_[static_cast<std::size_t>(field_)].scale; }
 
  signals:
-  /// Another field, or another range or colours.
+  /// Another field, or another range or colours, or its values are there.
   void changed();
+  void working_changed(bool working);
+  /// Of the work on a field: 0 to 1.
+  void progress(double fraction, const QString& what);
 
  private:
   ColourMapState& state() { return states_[static_cast<std::size_t>(field_)]; }
   void take(const ColourMapState& state);
-  void load();  // values and distribution of the field
+  /// Works out evidence beside the UI thread, then calls `then`.
+  void work_out(LatestWork* work, const SharedLineEvidencePtr& evidence,
+                std::function<void(const LineEvidence&)> then);
+  void load();  // values and distribution of the field, or starts to work them out
   ViewField view_field(std::shared_ptr<const std::vector<double>> values) const;
+  void take_values(std::shared_ptr<const std::vector<double>> values);
   void refresh();  // range, view, panel, histogram
 
   MeshView* view_;
   ColourMapPanel* panel_;
   HistogramPanel* histogram_;
   Field field_ = Field::kabs;
-  std::array<ColourMapState, 10> states_;  // of each field
+  LatestWork* work_;
+  LatestWork* other_work_;                          // for of()
+  std::array<ColourMapState, field_count> states_;  // of each field
   MeshPtr mesh_;
   CurvaturesPtr curvatures_;
   ErrorZonesPtr zones_;
+  SharedLineEvidencePtr evidence_;
+  SharedLineEvidencePtr other_evidence_;  // that other_work_ works out, or could not
   std::shared_ptr<const std::vector<double>> values_;
   std::optional<ViewMark> mark_;
   Distribution distribution_;

@@ -33,6 +33,9 @@ QString hover_text(const Document& document, const Pick& pick) {
   if (pick.edge < document.mesh->edge_count()) {
     const double angle = std::abs(c.beta[pick.edge]) * 180.0 / std::numbers::pi;
     text += tr("   |IHe| %1°").arg(number(angle, 3));
+    // Only what is there already: the pointer does not wait.
+    if (const LineEvidencePtr evidence = document.evidence ? document.evidence->known() : nullptr)
+      text += tr("   jump %1°").arg(number(std::abs(evidence->jump[pick.edge]), 3));
   }
   if (pick.face < document.mesh->face_count()) {
     text += tr("   quality %1").arg(number(face_quality(*document.mesh, pick.face), 2));

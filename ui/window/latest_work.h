@@ -24,16 +24,17 @@ class LatestWork : public QObject {
   }
 
   /// `work`(Context) runs on a thread of its own; `take` gets its result on the UI thread.
+  /// `report` hears of its progress, on the work's thread.
   template <class Work, class Take>
-  void start(Work work, Take take) {
+  void start(Work work, Take take, Context::Progress report = nullptr) {
     cancel();
     stop_ = std::stop_source();
     running_ = true;
-    pool_.start([this, work = std::move(work), take = std::move(take), stop = stop_.get_token(),
-                 round = round_] {
+    pool_.start([this, work = std::move(work), take = std::move(take), report = std::move(report),
+                 stop = stop_.get_token(), round = round_] {
       if (stop.stop_requested()) return;
       clear_vector_state();
-      const auto result = std::make_shared<decltype(work(Context()))>(work(Context(nullptr, stop)));
+      const auto result = std::make_shared<decltype(work(Context()))>(work(Context(report, stop)));
       QMetaObject::invokeMethod(this, [this, result, take, round] {
         if (round != round_) return;
         running_ = false;

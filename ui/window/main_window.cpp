@@ -149,22 +149,17 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     QMessageBox box(QMessageBox::Warning, "Arris", message, QMessageBox::Ok, this);
     box.exec();
   });
-  connect(session_, &Session::busy_changed, this, [this](bool busy) {
-    if (busy) {
-      progress_->setValue(0);
-      progress_->setFormat(QString());
-      progress_delay_->start(progress_delay);
-    } else {
-      progress_delay_->stop();
-      progress_->hide();
-      cancel_->hide();
-    }
+  connect(session_, &Session::busy_changed, this, [this] {
+    show_working();
     refresh_actions();
   });
-  connect(session_, &Session::progress, this, [this](double fraction, const QString& what) {
+  connect(fields_, &FieldPresenter::working_changed, this, &MainWindow::show_working);
+  const auto show_progress = [this](double fraction, const QString& what) {
     progress_->setValue(static_cast<int>(100.0 * fraction));
     progress_->setFormat(what + " %p %");
-  });
+  };
+  connect(session_, &Session::progress, this, show_progress);
+  connect(fields_, &FieldPresenter::progress, this, show_progress);
   // A selection made in the view brings its table to the front.
   connect(elements_, &ElementsPresenter::selection_changed, this, [this] {
     const char* name = !elements_->selected_lines().empty()        ? "lines"
@@ -301,8 +296,22 @@ void MainWindow::make_status_bar() {
   progress_delay_->setSingleShot(true);
   connect(progress_delay_, &QTimer::timeout, this, [this] {
     progress_->show();
-    cancel_->show();
+    cancel_->setVisible(session_->busy());  // a field stops where another one is chosen
   });
+}
+
+void MainWindow::show_working() {
+  if (!session_->busy() && !fields_->working()) {
+    progress_delay_->stop();
+    progress_->hide();
+    cancel_->hide();
+  } else if (progress_->isHidden() && !progress_delay_->isActive()) {
+    progress_->setValue(0);
+    progress_->setFormat(QString());
+    progress_delay_->start(progress_delay);
+  } else if (!progress_->isHidden()) {
+    cancel_->setVisible(session_->busy());
+  }
 }
 
 void MainWindow::make_actions() {
@@ -356,8 +365,14 @@ void MainWindow::make_actions() {
                            tr("Run the step with the parameters of its card"));
   connect(run_partitions_, &QAction::triggered, this, [this] { steps_->run("find_partitions"); });
   run_all_ = action(part, tr("&Run all that is out of date"), QKeySequence("F5"),
-                    tr("Run the steps that were not run, or that an earlier step has changed"));
+                    tr("On a fresh part: find sharp lines and partitions on the scan's own mesh. "
+                       "Later: run again the steps that an earlier one has put out of date"));
   connect(run_all_, &QAction::triggered, steps_, &StepsPresenter::run_out_of_date);
+  run_paper_ = action(part, tr("Run the paper's fl&ow"), QKeySequence("Shift+F5"),
+                      tr("Figure 2 of the paper, from the scan on: simplify inside error zones, "
+                         "find sharp lines by the walk along edges, equilateralise, find "
+                         "partitions. Each step can be undone"));
+  connect(run_paper_, &QAction::triggered, steps_, &StepsPresenter::run_paper_flow);
   part->addSeparator();
   flip_ =
       action(part, tr("&Flip orientation"), {}, tr("Turn all faces round: convex becomes concave"));
@@ -396,11 +411,16 @@ void MainWindow::make_actions() {
 
   QMenu* field_menu = look->addMenu(tr("&Field"));
   field_actions_ = new QActionGroup(this);
-  int key = 1;
+  int digit = 1;
   for (const FieldInfo& info : field_table()) {
-    QAction* a =
-        action(field_menu, title_of(info.field), QKeySequence(QString("Alt+%1").arg(key++ % 10)),
-               QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
+    // The normal jump came when the ten digits were taken.
+    QKeySequence keys;
+    if (info.field == Field::normal_jump)
+      keys = QKeySequence("Alt+J");
+    else if (digit <= 10)
+      keys = QKeySequence(QString("Alt+%1").arg(digit++ % 10));
+    QAction* a = action(field_menu, title_of(info.field), keys,
+                        QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
     a->setCheckable(true);
     a->setData(static_cast<int>(info.field));
     a->setChecked(info.field == fields_->field());
@@ -730,7 +750,7 @@ void MainWindow::refresh_actions() {
   const QString no_part = tr("Open a part first.");
   const QString wait = part ? tr("Wait until the work that runs is done.") : no_part;
   for (QAction* a : part_actions_) set_available(a, part, no_part);
-  for (QAction* a : {run_lines_, run_partitions_, flip_, drop_})
+  for (QAction* a : {run_lines_, run_partitions_, run_paper_, flip_, drop_})
     set_available(a, part && !busy, wait);
   for (QAction* a : field_actions_->actions())
     set_available(a, fields_->is_available(static_cast<Field>(a->data().toInt())),

@@ -83,6 +83,8 @@ class MainWindow : public QMainWindow {
   void remember_recent(const QString& path);
   void refresh_recent();
   void refresh_actions();
+  /// Shows progress while something takes its time, and Cancel where it can be.
+  void show_working();
   void refresh_history();
   void refresh_counts();
   void show_hover(const Document& document, const std::optional<Pick>& pick);
@@ -131,6 +133,7 @@ class MainWindow : public QMainWindow {
   QAction* run_lines_;
   QAction* run_partitions_;
   QAction* run_all_;
+  QAction* run_paper_;
   QAction* flip_;
   QAction* drop_;
   QAction* report_;

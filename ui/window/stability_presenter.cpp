@@ -71,10 +71,12 @@ StabilityPresenter::Basis StabilityPresenter::basis() const {
   Basis basis;
   if (document.empty() || !is_on()) return basis;
   const Field field = fields_->field();
-  if (field != Field::ihe && field != Field::ikabs && field != Field::kabs) return basis;
+  if (field != Field::normal_jump && field != Field::ihe && field != Field::ikabs &&
+      field != Field::kabs)
+    return basis;
   nlohmann::json partitions = session_->current_parameters("find_partitions");
-  const bool by_criterion =
-      field != Field::ihe && partitions["criterion"] == (field == Field::kabs ? "kabs" : "ikabs");
+  const bool by_criterion = (field == Field::kabs && partitions["criterion"] == "kabs") ||
+                            (field == Field::ikabs && partitions["criterion"] == "ikabs");
   if (by_criterion) {
     basis.kind = Kind::partitions;
     basis.mesh = document.mesh;
@@ -87,13 +89,16 @@ StabilityPresenter::Basis StabilityPresenter::basis() const {
                         {"least", least}};
     return basis;
   }
-  if (field == Field::kabs) return basis;
+  nlohmann::json lines = session_->current_parameters("find_sharp_lines");
+  const bool by_jump = line_options_of(lines).method == LineMethod::normal_jump;
+  if (field == Field::kabs || by_jump != (field == Field::normal_jump)) return basis;
   const Stage stage = stage_before(document, "find_sharp_lines");
-  if (!stage.mesh || !stage.curvatures) return basis;
-  basis.kind = field == Field::ihe ? Kind::lines_by_angle : Kind::lines_by_ikabs;
+  if (!stage.mesh || !stage.curvatures || (by_jump && !stage.evidence)) return basis;
+  basis.kind = field == Field::ikabs ? Kind::lines_by_ikabs : Kind::lines_by_angle;
   basis.mesh = stage.mesh;
   basis.curvatures = stage.curvatures;
-  basis.parameters = session_->current_parameters("find_sharp_lines");
+  if (by_jump) basis.evidence = stage.evidence;
+  basis.parameters = std::move(lines);
   for (const char* name : {"angle", "corrections", "version"}) basis.parameters.erase(name);
   return basis;
 }
@@ -114,8 +119,14 @@ void StabilityPresenter::refresh() {
       [basis = basis_, lines, of_lines](const Context& context) {
         const nlohmann::json& p = basis.parameters;
         if (of_lines) {
-          return with_plateau(
-              line_stability(*basis.mesh, *basis.curvatures, evidence, options, {}, 24, context));
+          LineEvidencePtr evidence;
+          if (basis.evidence) {
+            Result<LineEvidencePtr> known = basis.evidence->get(context);
+            if (!known) return Result<Found>(tl::unexpected<Error>(known.error()));
+            evidence = std::move(*known);
+          }
+          return with_plateau(line_stability(*basis.mesh, *basis.curvatures, evidence.get(),
+                                             line_options_of(p), {}, 24, context));
         }
         PartitionOptions options;
         options.bare_areas = true;

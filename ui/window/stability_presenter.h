@@ -12,7 +12,8 @@
 
 namespace arris::ui {
 
-/// The stability curve over the histogram: lines per TV_IH over IHe, partitions per Kmax over the
+/// The stability curve over the histogram: lines per TV_IH over the measure that lines are found by
+/// (normal jump, or IHe and IKabs by the walk), partitions per Kmax over the
 /// criterion. Worked out beside the UI thread, for the mesh, curvatures and lines shown.
 class StabilityPresenter : public QObject {
   Q_OBJECT
@@ -30,7 +31,8 @@ class StabilityPresenter : public QObject {
     Kind kind = Kind::none;
     MeshPtr mesh;
     CurvaturesPtr curvatures;
-    std::vector<LinePtr> lines;  // partitions only
+    SharedLineEvidencePtr evidence;  // lines by the normal jump only
+    std::vector<LinePtr> lines;      // partitions only
     nlohmann::json parameters;
     bool operator==(const Basis&) const = default;
   };

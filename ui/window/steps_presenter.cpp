@@ -5,6 +5,8 @@
 #include <iterator>
 
 #include "core/base/number_text.h"
+#include "core/document/flow.h"
+#include "core/document/treatments/treatment.h"
 #include "core/mesh/face_quality.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "ui/panels/controls.h"
@@ -35,12 +37,7 @@ bool is_optional(std::string_view step) {
 /// Whether "run all that is out of date" means this step.
 bool wants_run(const Document& document, const char* name) {
   const std::optional<Step>& step = document.step(name);
-  if (step) return step->out_of_date;
-  // The preparation comes first or not at all: what was found on the scan itself is left alone.
-  const bool prepares = document.simplify || !document.find_sharp_lines;
-  if (std::string_view(name) == "simplify") return prepares;
-  if (std::string_view(name) == "equilateralize") return prepares && !document.find_partitions;
-  return !is_optional(name);
+  return step ? step->out_of_date : !is_optional(name);
 }
 
 StepCard card(const QString& name, const QString& title, const QString& tooltip) {
@@ -105,6 +102,20 @@ std::size_t count_new_edges(const Mesh& mesh, const Mesh& before) {
   return fresh.size();
 }
 
+StepState state_of(const std::optional<Step>& step) {
+  return !step ? StepState::not_run : step->out_of_date ? StepState::out_of_date : StepState::done;
+}
+
+int magnitude_of(const Mesh& mesh) {
+  const double diagonal = mesh.diagonal();
+  return diagonal > 0.0 ? static_cast<int>(std::floor(std::log10(diagonal))) : 0;
+}
+
+/// As many as show a millionth of a percent of the part in whatever unit, 6 for one of 200 mm.
+int length_decimals_of(const Mesh& mesh) { return std::clamp(8 - magnitude_of(mesh), 0, 15); }
+
+double longest_of(const Mesh& mesh) { return 1000.0 * mesh.diagonal(); }
+
 QString wide_angles_text(const Mesh& mesh) {
   return QString::fromStdString(fixed_text(100.0 * share_of_angles_above(mesh, 120.0), 1));
 }
@@ -167,11 +178,108 @@ void StepsPresenter::run_out_of_date() {
     const std::optional<Step>& step = document.step(name);
     // Once one step is run, the later ones that were run are out of date, too.
     if (!wants_run(document, name) && !(step && !operations.empty())) continue;
-    // A step never run takes its defaults from what the steps before it leave.
-    operations.push_back(step ? operation_from(name, panel_->values(name))
-                              : Operation{name, nlohmann::json::object()});
+    // A step never run takes its defaults from what the steps before it leave; those of the lines
+    // come from the scan, so that what was chosen on their card counts.
+    const bool by_card = step || std::string_view(name) == "find_sharp_lines";
+    operations.push_back(by_card ? operation_from(name, panel_->values(name))
+                                 : Operation{name, nlohmann::json::object()});
   }
   session_->run(std::move(operations));
+}
+
+void StepsPresenter::run_paper_flow() {
+  const Document& document = session_->current().document;
+  if (document.empty()) return;
+  const std::vector<Operation> flow = operations_of(Flow::paper);
+  std::vector<Operation> operations;
+  for (const char* name : chain) {
+    const auto own = std::ranges::find(flow, name, &Operation::name);
+    if (own != flow.end())
+      operations.push_back(*own);
+    else if (document.step(name))
+      operations.push_back(operation_from(name, panel_->values(name)));
+  }
+  session_->run(std::move(operations));
+}
+
+const nlohmann::json& StepsPresenter::line_defaults(const char* method) {
+  const Document& document = session_->shown().document;
+  LineDefaults& known = line_defaults_;
+  if (known.scan == document.opened.mesh && known.method == method) return known.parameters;
+  const Result<Operation> resolved = resolve(document, {"find_sharp_lines", {{"method", method}}});
+  known = {document.opened.mesh, method,
+           resolved ? resolved->parameters : nlohmann::json::object()};
+  return known.parameters;
+}
+
+StepCard StepsPresenter::lines_card() {
+  const Document& document = session_->shown().document;
+  StepCard lines;
+  lines.name = "find_sharp_lines";
+  lines.title = tr("Sharp lines");
+  lines.tooltip =
+      tr("Finds the sharp lines of the part: where its mean normal jumps, or by the paper's walk "
+         "along edges (section 6).");
+  if (document.empty()) return lines;
+  const nlohmann::json p = session_->parameters("find_sharp_lines");
+  const bool by_walk = line_options_of(p).method == LineMethod::walk;
+  const nlohmann::json& other = line_defaults(by_walk ? "normal_jump" : "walk");
+  const nlohmann::json& jump = by_walk ? other : p;
+  const nlohmann::json& walk = by_walk ? p : other;
+  lines.state = state_of(document.find_sharp_lines);
+  lines.time = seconds_text(session_->seconds_of("find_sharp_lines"));
+  // Angles and lengths by one method say nothing about the other.
+  const auto by_method = [&](StepParameter parameter) {
+    const std::string key = parameter.key.toStdString();
+    parameter.hangs_on = "method";
+    parameter.value_of = {{"normal_jump", jump.value(key, 0.0)}, {"walk", walk.value(key, 0.0)}};
+    return parameter;
+  };
+  const auto of_walk = [&](StepParameter parameter) {
+    parameter.hangs_on = "method";
+    parameter.value_of = {{"walk", walk.value(parameter.key.toStdString(), 0)}};
+    return parameter;
+  };
+  const double longest = longest_of(*document.mesh);
+  const int length_decimals = length_decimals_of(*document.mesh);
+  lines.parameters = {
+      choice("method", tr("Method"),
+             tr("Normal jump: lines between regions across which the mean normal jumps; it stands "
+                "the noise of scans. Walk: the paper's way along edges, by exterior angle and "
+                "IKabs; for simplified meshes."),
+             by_walk ? "walk" : "normal_jump", {"normal_jump", "walk"},
+             {tr("Normal jump"), tr("Walk along edges (paper)")}),
+      by_method(real("angle", tr("Angle TV_IH"),
+                     tr("Least angle across a sharp line: the jump of the normals, or by the walk "
+                        "the exterior angle of an edge, from which TV_IK follows."),
+                     0.0, 0.1, 179.9, 2, " °")),
+      real("max_angle", tr("Angle up to"),
+           tr("Greatest angle across a sharp line; 180: no upper bound."),
+           p.value("max_angle", 180.0), 0.1, 180.0, 2, " °"),
+      choice("convexity", tr("Edges"), tr("Which edges may be sharp."), p.value("convexity", "any"),
+             {"any", "convex", "concave"}, {tr("Both"), tr("Convex"), tr("Concave")}),
+      of_walk(whole("candidates", tr("Candidates"),
+                    tr("Edges kept at a vertex by the candidate rule (figure 26); 3 suits most "
+                       "parts."),
+                    0, 1, 32)),
+      by_method(real("min_length", tr("Least length"),
+                     tr("Isolated lines shorter than this are removed; 0 keeps them."), 0.0, 0.0,
+                     longest, length_decimals, " mm")),
+      of_walk(whole("parallel_distance", tr("Parallel within"),
+                    tr("Of two parallel lines of one sign this many edges apart the weaker is "
+                       "removed; 0 keeps both."),
+                    0, 0, 4)),
+      by_method(real("bridge_gap", tr("Bridge gaps"),
+                     tr("Loose ends with at most this distance between them are joined; 0 joins "
+                        "none."),
+                     0.0, 0.0, longest, length_decimals, " mm"))};
+  if (document.find_sharp_lines) {
+    double length = 0.0;
+    for (const LinePtr& line : document.lines.lines) length += line->length;
+    lines.result = counted(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
+                   QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
+  }
+  return lines;
 }
 
 QString StepsPresenter::swaps_text(const MeshPtr& before, const MeshPtr& after) {
@@ -208,7 +316,8 @@ void StepsPresenter::refresh() {
   StepCard simplify =
       card("simplify", tr("Simplification"),
            tr("Removes vertices inside error zones, which takes out the noise (section 4.1). Every "
-              "vertex of the scan stays within the zone's radius of the surface."));
+              "vertex of the scan stays within the zone's radius of the surface. Part of the "
+              "paper's flow; lines by the normal jump do without."));
   StepCard swap = card("swap_edges", tr("Edge swapping"),
                        tr("Swaps edges, inside the error zones, so that sharp lines run along "
                           "edges (section 4.2)."));
@@ -216,10 +325,6 @@ void StepsPresenter::refresh() {
       card("equilateralize", tr("Equilateralisation"),
            tr("Swaps edges, inside the error zones, so that faces are nearly equilateral (section "
               "4.3). Sharp lines stay."));
-  StepCard lines;
-  lines.name = "find_sharp_lines";
-  lines.title = tr("Sharp lines");
-  lines.tooltip = tr("Finds the sharp lines of the part (section 6).");
   StepCard smoothing;
   smoothing.name = "smooth_curvature";
   smoothing.title = tr("Curvature smoothing");
@@ -229,17 +334,11 @@ void StepsPresenter::refresh() {
   partitions.title = tr("Partitions");
   partitions.tooltip = tr("Splits the part into areas of slowly varying curvature (section 7).");
   if (!document.empty()) {
-    const auto state = [](const std::optional<Step>& step) {
-      return !step               ? StepState::not_run
-             : step->out_of_date ? StepState::out_of_date
-                                 : StepState::done;
-    };
-    const double diagonal = document.mesh->diagonal(), longest = 1000.0 * diagonal;
-    // As many as show a millionth of a percent of the part in whatever unit, 6 for one of 200 mm.
-    const int magnitude = diagonal > 0.0 ? static_cast<int>(std::floor(std::log10(diagonal))) : 0;
-    const int length_decimals = std::clamp(8 - magnitude, 0, 15);
+    const int magnitude = magnitude_of(*document.mesh);
+    const double longest = longest_of(*document.mesh);
+    const int length_decimals = length_decimals_of(*document.mesh);
     const nlohmann::json z = session_->parameters("simplify");
-    simplify.state = state(document.simplify);
+    simplify.state = state_of(document.simplify);
     simplify.time = seconds_text(session_->seconds_of("simplify"));
     simplify.parameters = {
         real("error_zone", tr("Error zone"),
@@ -255,53 +354,19 @@ void StepsPresenter::refresh() {
           vertices_text(*document.opened.mesh, *document.simplified.mesh) +
           tr(", all within %1 mm")
               .arg(QString::fromStdString(arris::number_text(z.value("error_zone", 0.0), 3)));
-    swap.state = state(document.swap_edges);
+    swap.state = state_of(document.swap_edges);
     swap.time = seconds_text(session_->seconds_of("swap_edges"));
     const MeshPtr before_swaps =
         document.simplified.mesh ? document.simplified.mesh : document.opened.mesh;
     if (document.swapped.mesh) swap.result = swaps_text(before_swaps, document.swapped.mesh);
-    equilateral.state = state(document.equilateralize);
+    equilateral.state = state_of(document.equilateralize);
     equilateral.time = seconds_text(session_->seconds_of("equilateralize"));
     if (document.equilateralize && !document.equilateralize->out_of_date)
       equilateral.result =
           swaps_text(document.swapped.mesh ? document.swapped.mesh : before_swaps, document.mesh);
 
-    const nlohmann::json p = session_->parameters("find_sharp_lines");
-    lines.state = state(document.find_sharp_lines);
-    lines.time = seconds_text(session_->seconds_of("find_sharp_lines"));
-    lines.parameters = {
-        real("angle", tr("Angle TV_IH"),
-             tr("Least exterior angle across a sharp line. TV_IK follows from it."),
-             p.value("angle", 30.0), 0.1, 179.9, 2, " °"),
-        real("max_angle", tr("Angle up to"),
-             tr("Greatest exterior angle across a sharp line; 180: no upper bound."),
-             p.value("max_angle", 180.0), 0.1, 180.0, 2, " °"),
-        choice("convexity", tr("Edges"), tr("Which edges may be sharp."),
-               p.value("convexity", "any"), {"any", "convex", "concave"},
-               {tr("Both"), tr("Convex"), tr("Concave")}),
-        whole("candidates", tr("Candidates"),
-              tr("Edges kept at a vertex by the candidate rule (figure 26); 3 suits most parts."),
-              p.value("candidates", 3), 1, 32),
-        real("min_length", tr("Least length"),
-             tr("Isolated lines shorter than this are removed; 0 keeps them."),
-             p.value("min_length", 0.0), 0.0, longest, length_decimals, " mm"),
-        whole("parallel_distance", tr("Parallel within"),
-              tr("Of two parallel lines of one sign this many edges apart the weaker is removed; 0 "
-                 "keeps both."),
-              p.value("parallel_distance", 1), 0, 4),
-        real("bridge_gap", tr("Bridge gaps"),
-             tr("Loose ends that face each other over at most this distance are joined; 0 joins "
-                "none."),
-             p.value("bridge_gap", 0.0), 0.0, longest, length_decimals, " mm")};
-    if (document.find_sharp_lines) {
-      double length = 0.0;
-      for (const LinePtr& line : document.lines.lines) length += line->length;
-      lines.result = counted(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
-                     QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
-    }
-
     const nlohmann::json s = session_->parameters("smooth_curvature");
-    smoothing.state = state(document.smooth_curvature);
+    smoothing.state = state_of(document.smooth_curvature);
     smoothing.time = seconds_text(session_->seconds_of("smooth_curvature"));
     smoothing.parameters = {whole("passes", tr("Passes"),
                                   tr("Passes of eq. 20 over the whole part."), s.value("passes", 3),
@@ -311,7 +376,7 @@ void StepsPresenter::refresh() {
           counted(static_cast<std::size_t>(s.value("passes", 0)), tr("pass"), tr("passes"));
 
     const nlohmann::json q = session_->parameters("find_partitions");
-    partitions.state = state(document.find_partitions);
+    partitions.state = state_of(document.find_partitions);
     partitions.time = seconds_text(session_->seconds_of("find_partitions"));
     const StepParameter criterion =
         choice("criterion", tr("Criterion"),
@@ -347,7 +412,7 @@ void StepsPresenter::refresh() {
   }
   cards.push_back(simplify);
   cards.push_back(swap);
-  cards.push_back(lines);
+  cards.push_back(lines_card());
   cards.push_back(equilateral);
   cards.push_back(smoothing);
   cards.push_back(partitions);

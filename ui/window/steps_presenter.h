@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <QObject>
@@ -17,12 +18,18 @@ class StepsPresenter : public QObject {
 
   /// Runs a step with the values in its card.
   void run(const QString& step);
-  /// Runs again what an earlier step has put out of date; in a fresh part, what was never run.
+  /// Runs again what an earlier step has put out of date; in a fresh part, sharp lines and
+  /// partitions.
   void run_out_of_date();
+  /// The steps of figure 2 from the scan on, with defaults from the part; those that were run
+  /// besides (swaps, smoothing) run again in their place.
+  void run_paper_flow();
   bool anything_out_of_date() const;
 
  private:
   void refresh();
+  const nlohmann::json& line_defaults(const char* method);
+  StepCard lines_card();
   QString swaps_text(const MeshPtr& before, const MeshPtr& after);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
 
@@ -34,6 +41,13 @@ class StepsPresenter : public QObject {
     QString text;
   };
   std::vector<Swaps> swaps_;
+  /// Defaults of find_sharp_lines by the method that is not in use, for the scan they come from.
+  struct LineDefaults {
+    MeshPtr scan;
+    std::string method;
+    nlohmann::json parameters;
+  };
+  LineDefaults line_defaults_;
 };
 
 }  // namespace arris::ui

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/number_text.h"
+#include "core/document/treatments/treatment.h"
 
 namespace arris::ui {
 
@@ -25,6 +26,11 @@ QString number(double value, int digits = 3) {
 }
 
 }  // namespace
+
+Field line_field(const Session& session) {
+  const SharpLineOptions options = line_options_of(session.parameters("find_sharp_lines"));
+  return options.method == LineMethod::walk ? Field::ihe : Field::normal_jump;
+}
 
 ThresholdPresenter::ThresholdPresenter(Session* session, FieldPresenter* fields,
                                        HistogramPanel* histogram, QObject* parent)
@@ -79,16 +85,16 @@ void ThresholdPresenter::refresh() {
   std::vector<ThresholdHandle> handles;
   std::vector<Target> targets;
   const Field field = fields_->field();
-  if (field == Field::ihe || field == Field::ikabs) {
-    const nlohmann::json parameters = session_->parameters("find_sharp_lines");
-    const double angle = parameters["angle"];
+  const Field of_lines = line_field(*session_);
+  if (field == of_lines || (of_lines == Field::ihe && field == Field::ikabs)) {
+    const double angle = session_->parameters("find_sharp_lines")["angle"];
     ThresholdHandle handle;
-    if (field == Field::ihe) {
+    if (field == of_lines) {
       handle.name = "TV_IH";
       handle.value = angle;
       handle.least = least_angle;
       handle.most = most_angle;
-      handle.reading = "TV_IK " + number(ikabs_of_angle(angle));
+      if (field == Field::ihe) handle.reading = "TV_IK " + number(ikabs_of_angle(angle));
       targets.push_back({Target::Kind::sharp_angle});
     } else {
       handle.name = "TV_IK";

@@ -10,7 +10,11 @@
 
 namespace arris::ui {
 
-/// The thresholds as handles on the histogram: TV_IH over IHe, the same as TV_IK over IKabs, and
+/// The field over which TV_IH is dragged: what lines are found by, or would be.
+Field line_field(const Session& session);
+
+/// The thresholds as handles on the histogram: TV_IH over the normal jump where lines are found by
+/// it; by the walk TV_IH over IHe, the same as TV_IK over IKabs; and
 /// the ends of the curvature intervals over the criterion. Dragging one previews the operation it
 /// belongs to, letting go commits it.
 class ThresholdPresenter : public QObject {

@@ -16,6 +16,7 @@
 #include <QToolBar>
 
 #include "core/document/treatments/treatment.h"
+#include "ui/window/threshold_presenter.h"
 
 namespace arris::ui {
 
@@ -51,15 +52,16 @@ const std::vector<TourStep>& TourPresenter::steps() {
       {tr("Look"),
        tr("Curvature shows in colours what the eye misses in the shape."),
        tr("Drag with the left button to turn the part; the wheel zooms to the pointer."),
-       tr("press <b>Alt+7</b> for IHe, the exterior angle, or choose another field here."),
+       tr("press <b>Alt+J</b> for the normal jump, which shows sharp lines, or choose another "
+          "field here."),
        tr("another field is shown, and its histogram below."),
        "colour_map",
        {},
        &TourPresenter::has_looked},
       {tr("Find"),
        tr("One key goes from the scan to sharp lines and partitions."),
-       tr("It simplifies the scan within its noise, finds the sharp lines, makes the faces "
-          "equilateral and finds the partitions. Each step keeps its numbers on its card here."),
+       tr("It finds the sharp lines of the scan and the partitions between them. Each step keeps "
+          "its numbers on its card here."),
        tr("press <b>F5</b>, and watch the cards."),
        tr("lines and partitions are found."),
        "steps",
@@ -67,10 +69,10 @@ const std::vector<TourStep>& TourPresenter::steps() {
        &TourPresenter::has_found},
       {tr("Tune"),
        tr("Drag a threshold: the lines follow while the mouse moves."),
-       tr("Edges bent by more than TV_IH count as sharp. Letting go makes one entry in the "
-          "history; "
-          "Esc while you drag restores. F5 then brings the partitions up to date."),
-       tr("drag the handle <b>TV_IH</b> on the histogram of IHe, and let go."),
+       tr("Where the surface turns at once by more than TV_IH it is sharp. Letting go makes one "
+          "entry in the history; Esc while you drag restores. F5 then brings the partitions up to "
+          "date."),
+       tr("drag the handle <b>TV_IH</b> on the histogram, and let go."),
        tr("the lines are found anew, and the history has one more entry."),
        "histogram",
        {},
@@ -218,9 +220,10 @@ void TourPresenter::begin(std::size_t step) {
     dock->show();
     dock->raise();
   }
-  // Its handle is on the histogram of IHe.
-  if (steps()[step].is_done == &TourPresenter::has_tuned && fields_->field() != Field::ihe)
-    emit field_wanted(Field::ihe);
+  // Its handle is on the histogram of what the lines are found by.
+  if (steps()[step].is_done == &TourPresenter::has_tuned &&
+      fields_->field() != line_field(*session_))
+    emit field_wanted(line_field(*session_));
   const auto is_done = steps()[step].is_done;
   done_ = is_done && (this->*is_done)();
   show_page();
@@ -237,7 +240,7 @@ void TourPresenter::go_on() {
 }
 
 bool TourPresenter::has_looked() const {
-  return fields_->field() == Field::ihe || fields_->field() != field_at_begin_;
+  return fields_->field() == line_field(*session_) || fields_->field() != field_at_begin_;
 }
 
 bool TourPresenter::has_found() const {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/guidance/explain.h"
+#include "core/sharp_lines/jump_profile.h"
+#include "core/sharp_lines/line_evidence.h"
+#include "core/sharp_lines/sharp_lines.h"
+
+namespace arris {
+
+/// What the method of the normal jump says about an edge.
+struct JumpTests {
+  std::vector<ExplainedTest> tests;
+  std::optional<std::string>
+      failed;  ///< Why the step leaves it out, as a clause; absent: it does not.
+  JumpProfile profile;
+};
+
+/// Tests edge e of a mesh as find_sharp_edges() does under `options`, from the evidence on it.
+JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
+                       const SharpLineOptions& options, EdgeId e);
+
+}  // namespace arris
