@@ -320,7 +320,19 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
     std::vector<FaceId>& smaller = other.size() < one.size() ? other : one;
     std::sort(smaller.begin(), smaller.end());
     smaller.erase(std::unique(smaller.begin(), smaller.end()), smaller.end());
-    return smaller;
+    // A path that touches the boundary on its way may cut off several pieces: one is split off
+    // here, and what else was parted by that is told apart by edit_partitions().
+    std::vector<FaceId> largest;
+    std::unordered_set<FaceId> seen;
+    for (const FaceId f : smaller) {
+      if (seen.contains(f)) continue;
+      std::vector<FaceId> piece = side({f});
+      seen.insert(piece.begin(), piece.end());
+      if (piece.size() > largest.size()) largest = std::move(piece);
+    }
+    std::sort(largest.begin(), largest.end());
+    largest.erase(std::unique(largest.begin(), largest.end()), largest.end());
+    return largest;
   }
   return fail(nothing);
 }

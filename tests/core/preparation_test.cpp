@@ -57,7 +57,7 @@ TEST(Preparation, TheTrueSharpLinesAreStillFound) {
   const Document document = document_of({mould.points, mould.triangles});
   const double mean = document.mesh->mean_edge_length();
   Document prepared = applied(document, {"simplify"});
-  prepared = applied(prepared, {"find_sharp_lines"});
+  prepared = applied(prepared, {"find_sharp_lines", {{"method", "walk"}}});
   EXPECT_LE(vertices_in_faces(*prepared.mesh), 0.55 * vertices_in_faces(*document.mesh));
   int lines = 0;
   for (const TrueLine& line : mould.lines) {
