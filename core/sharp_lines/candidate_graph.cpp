@@ -122,12 +122,21 @@ void CandidateGraph::close_gaps(float most, std::vector<std::uint8_t>& chosen) c
   std::priority_queue<Reached> queue;
   for (std::uint32_t end = 0; end + 1 < starts_.size(); ++end) {
     if (degree(end, chosen) != 1) continue;
+    // How convex the line is before it ends, and another one where it would be met.
+    float turn = 0.0F;
+    const auto turn_at = [&](std::uint32_t v) {
+      float sum = 0.0F;
+      for (const Half& half : around(v))
+        if (chosen[half.edge]) sum += edges_[half.edge].place.turn;
+      return sum;
+    };
     own.clear();
     queue.push({0.0F, end});
     while (!queue.empty()) {
       const auto [length, v] = queue.top();
       queue.pop();
       if (!own.emplace(v, length).second || length > 2.0F * most) continue;
+      turn += turn_at(v);
       for (const Half& half : around(v))
         if (chosen[half.edge]) queue.push({length + length_[half.edge], half.to});
     }
@@ -140,7 +149,8 @@ void CandidateGraph::close_gaps(float most, std::vector<std::uint8_t>& chosen) c
       queue.pop();
       if (hit != no_id || length > reached[v].first) continue;
       if (v != end && degree(v, chosen) > 0) {
-        if (!own.contains(v)) hit = v;
+        // Not from a convex line to a concave one: both stop where a step fades out.
+        if (!own.contains(v) && turn * turn_at(v) >= 0.0F) hit = v;
         continue;
       }
       for (const Half& half : around(v)) {
