@@ -82,6 +82,10 @@ double jump_threshold(float noise, const LineEvidenceOptions& options) {
   return static_cast<double>(options.threshold + rise_of(noise, options));
 }
 
+double clear_jump(float noise, const LineEvidenceOptions& options) {
+  return static_cast<double>(options.clear) * jump_threshold(noise, options);
+}
+
 std::size_t LineEvidence::bytes() const {
   return sizeof *this + jump.size() * sizeof(float) + candidates.bytes() +
          (measures ? measures->bytes() : 0);

@@ -26,6 +26,7 @@ struct LineEvidenceOptions {
   CrestOptions crests;
   NormalFilterOptions filter{2, 0.5F};  // rounds for harsh noise
   float threshold = 27.0F;              // degrees, where the noise is ordinary
+  float clear = 1.6F;                   // times that, for a line that parts no regions
   float harsh = 12.0F;          // degrees of normal noise from which normals are filtered first
   float ordinary = 11.0F;       // degrees of normal noise up to which thresholds stay as they are,
   float rise = 0.7F;            // how much they rise for each degree beyond that,
@@ -37,6 +38,8 @@ struct LineEvidenceOptions {
 
 /// Threshold in degrees for this much normal noise, degrees.
 double jump_threshold(float noise, const LineEvidenceOptions& options = {});
+/// Degrees that a line which parts no regions has to reach somewhere.
+double clear_jump(float noise, const LineEvidenceOptions& options = {});
 
 /// All that tells a sharp line on one mesh and does not depend on the threshold.
 struct LineEvidence {

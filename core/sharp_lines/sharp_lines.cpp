@@ -56,8 +56,7 @@ std::vector<EdgeId> choose_sharp_edges(const Mesh& mesh, const LineEvidence& evi
   choice.max_angle = static_cast<float>(options.max_angle);
   choice.convex = options.convexity != Convexity::concave;
   choice.concave = options.convexity != Convexity::convex;
-  constexpr float clear = 1.6F;  // times what is sharp at this noise
-  choice.clear_slit = clear * static_cast<float>(jump_threshold(evidence.noise));
+  choice.clear_slit = static_cast<float>(clear_jump(evidence.noise));
   choice.gap = static_cast<float>(options.bridge_gap / unit);
   choice.least_group = static_cast<float>(options.min_length / unit);
   return evidence.candidates.choose(choice);

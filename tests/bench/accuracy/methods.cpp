@@ -78,6 +78,8 @@ Result<Found> jump_lines(const ScanPtr& scan, const Idea& idea) {
   const Result<LineEvidencePtr> evidence = gather_line_evidence(mesh, **curvatures, options);
   if (!evidence) return tl::unexpected<Error>(evidence.error());
   choice.angle = static_cast<float>(std::round(jump_threshold((*evidence)->noise, options)));
+  if (choice.clear_slit > 0.0F)
+    choice.clear_slit = static_cast<float>(clear_jump((*evidence)->noise, options));
   std::vector<Origin> edges(mesh.edge_count(), Origin::none);
   for (const EdgeId e : (*evidence)->candidates.choose(choice)) edges[e] = Origin::found;
   Found found;
