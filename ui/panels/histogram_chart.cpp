@@ -442,9 +442,9 @@ void HistogramChart::paint(QPainter& painter) const {
   painter.fillRect(at.plot, base);
   if (!shown()) {
     painter.setPen(muted_text(palette));
-    painter.drawText(at.plot, Qt::AlignCenter | Qt::TextWordWrap,
-                     histogram.why_none.isEmpty() ? QObject::tr("No distribution to show")
-                                                  : histogram.why_none);
+    painter.drawText(
+        at.plot, Qt::AlignCenter | Qt::TextWordWrap,
+        histogram.why_none.isEmpty() ? QObject::tr("No distribution to show") : histogram.why_none);
     return;
   }
   // Kmin and Kmax: what lies between them is what would be found.
