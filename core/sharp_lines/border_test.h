@@ -43,7 +43,8 @@ class BorderTest {
     bool alive = true;
   };
 
-  /// `region_of`: per face, a label whose root() is its region: `parent` is a forest over labels.
+  /// `labels`: per face, a label whose root() is its region; `parent`: the forest over labels, each
+  /// its own root when anything is first measured. Both must outlive the test.
   BorderTest(const Mesh& mesh, const FaceTable& table, const std::vector<Eigen::Vector3f>& normals,
              const std::vector<std::uint32_t>& labels, std::vector<std::uint32_t>& parent,
              const BorderTestOptions& options);

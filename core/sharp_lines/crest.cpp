@@ -127,26 +127,9 @@ std::vector<BorderEdge> find_crests(const Mesh& mesh, const FaceTable& table,
 
   constexpr int rings = 2;
   constexpr std::ptrdiff_t way_on = 4;  // edges that lead from a crest to the border it runs into
-  std::vector<std::uint8_t> beside(mesh.vertex_count(), 0);
-  std::vector<VertexId> front;
-  for (const BorderEdge& border : borders) {
-    if (border.height <= height) continue;
-    kept[border.edge] = 0;
-    for (const VertexId v : mesh.edge(border.edge))
-      if (!beside[v]) {
-        beside[v] = 1;
-        front.push_back(v);
-      }
-  }
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = front.size();
-    for (std::size_t k = 0; k < count; ++k)
-      mesh.for_ring(front[k], [&](HalfEdgeId h) {
-        if (beside[mesh.to(h)]) return;
-        beside[mesh.to(h)] = 1;
-        front.push_back(mesh.to(h));
-      });
-  }
+  const std::vector<std::uint8_t> beside = vertices_near(mesh, borders, height, rings);
+  for (const BorderEdge& border : borders)
+    if (border.height > height) kept[border.edge] = 0;
   std::erase_if(edges, [&](EdgeId e) { return !kept[e]; });
   const std::vector<Chain> chains = link_chains(
       mesh, edges, [&](EdgeId e) { return kept[e] != 0; },

@@ -131,24 +131,8 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
 std::vector<BorderEdge> merge_creases(const Mesh& mesh, const std::vector<BorderEdge>& borders,
                                       std::vector<BorderEdge> creases) {
   if (creases.empty()) return borders;
-  std::vector<std::uint8_t> near(mesh.vertex_count(), 0);
-  std::vector<VertexId> front;
-  for (const BorderEdge& crease : creases)
-    for (const VertexId v : mesh.edge(crease.edge))
-      if (!near[v]) {
-        near[v] = 1;
-        front.push_back(v);
-      }
   constexpr int rings = 2;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = front.size();
-    for (std::size_t k = 0; k < count; ++k)
-      mesh.for_ring(front[k], [&](HalfEdgeId h) {
-        if (near[mesh.to(h)]) return;
-        near[mesh.to(h)] = 1;
-        front.push_back(mesh.to(h));
-      });
-  }
+  const std::vector<std::uint8_t> near = vertices_near(mesh, creases, 0.0F, rings);
   for (const BorderEdge& border : borders) {
     const EdgeVertices& ends = mesh.edge(border.edge);
     if (!near[ends[0]] && !near[ends[1]]) creases.push_back(border);

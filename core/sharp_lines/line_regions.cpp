@@ -306,6 +306,27 @@ class TestedJoining {
 
 }  // namespace
 
+std::vector<std::uint8_t> vertices_near(const Mesh& mesh, const std::vector<BorderEdge>& borders,
+                                        float height, int rings) {
+  std::vector<std::uint8_t> near(mesh.vertex_count(), 0);
+  std::vector<VertexId> front;
+  const auto reach = [&](VertexId v) {
+    if (near[v]) return;
+    near[v] = 1;
+    front.push_back(v);
+  };
+  for (const BorderEdge& border : borders)
+    if (border.height > height)
+      for (const VertexId v : mesh.edge(border.edge)) reach(v);
+  std::size_t begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = front.size();
+    for (; begin < end; ++begin)
+      mesh.for_ring(front[begin], [&](HalfEdgeId h) { reach(mesh.to(h)); });
+  }
+  return near;
+}
+
 Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTable& table,
                                                   const std::vector<Eigen::Vector3f>& normals,
                                                   const NormalJump& jump,
@@ -338,12 +359,7 @@ Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTa
   TestedJoining joining(mesh, table, normals, regions, edge_length, options);
   std::vector<BorderEdge> borders = joining.run();
   // The same border may be among both, an edge apart.
-  std::vector<std::uint8_t> near(mesh.vertex_count(), 0);
-  for (const BorderEdge& border : borders)
-    for (const VertexId v : mesh.edge(border.edge)) {
-      near[v] = 1;
-      mesh.for_ring(v, [&](HalfEdgeId h) { near[mesh.to(h)] = 1; });
-    }
+  const std::vector<std::uint8_t> near = vertices_near(mesh, borders, -1.0F, 1);
   const auto by_edge = [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; };
   std::erase_if(low, [&](BorderEdge& border) {
     if (!jump.convex[border.edge]) {

@@ -33,6 +33,11 @@ struct BorderEdge {
   bool exact = false;   ///< An edge of a mesh without noise: its own exterior angle is the measure.
 };
 
+/// One mark per vertex: 1 within `rings` edges of one of `borders` that stands above `height`
+/// (degrees).
+std::vector<std::uint8_t> vertices_near(const Mesh& mesh, const std::vector<BorderEdge>& borders,
+                                        float height, int rings);
+
 /// The regions of a mesh at every threshold at once, as the edges of their borders by increasing
 /// edge number: those with a height above a threshold are the borders at it.
 ///
