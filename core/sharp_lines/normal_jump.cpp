@@ -8,6 +8,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/base/parallel.h"
+#include "core/sharp_lines/normal_window.h"
 
 namespace arris {
 
@@ -16,45 +17,13 @@ namespace {
 using Eigen::Vector3f;
 constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 
-/// exp(-x) for x >= 0 by table, 0 from 12 on. The same on every machine, and fast.
-class FallingExponential {
- public:
-  FallingExponential() {
-    for (std::size_t k = 0; k < table_.size(); ++k)
-      table_[k] = static_cast<float>(std::exp(-(static_cast<double>(k) + 0.5) / steps));
-  }
-  float operator()(float x) const {
-    const auto k = static_cast<std::size_t>(x * steps);
-    return k < table_.size() ? table_[k] : 0.0F;
-  }
-
- private:
-  static constexpr float steps = 256.0F;
-  std::array<float, 12 * 256> table_;
-};
-
-/// angle / sin(angle) for 1 - cos(angle) = z, z in [0, 0.8], to 0.1 %.
-float angle_over_sine(float z) {
-  return 1.0F +
-         z * (1.0F / 3 +
-              z * (2.0F / 15 +
-                   z * (2.0F / 35 + z * (8.0F / 315 + z * (8.0F / 693 + z * (16.0F / 3003 +
-                                                                             z * 16.0F / 6435))))));
-}
-
-/// The faces of a window, copied side by side.
-struct Sample {
-  Vector3f from_place, normal;
-  float area;
-};
-
 struct Measured {
   float jump = 0.0F;  // degrees, convex positive
   float turn = 0.0F;  // degrees, between the means
   Vector3f along = Vector3f::Zero(), normal = Vector3f::Zero();
 };
 
-Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& options,
+Measured measure(const std::vector<WindowFace>& samples, const NormalJumpOptions& options,
                  const FallingExponential& falling) {
   Measured result;
   // The mean normal, and the tensor of how normals change over the tangent plane, both weighted
@@ -62,7 +31,7 @@ Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& op
   Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
   float weight = 0.0F;
   Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
-  for (const Sample& s : samples) {
+  for (const WindowFace& s : samples) {
     const float w = s.area * falling(0.5F * s.from_place.squaredNorm());
     const Vector3f wn = w * s.normal;
     sum += wn;
@@ -94,7 +63,7 @@ Measured measure(const std::vector<Sample>& samples, const NormalJumpOptions& op
   std::array<Eigen::Vector2f, 2> a0, a1;
   a0.fill(Eigen::Vector2f::Zero());
   a1.fill(Eigen::Vector2f::Zero());
-  for (const Sample& s : samples) {
+  for (const WindowFace& s : samples) {
     const float cosine = s.normal.dot(n);
     if (cosine < least_cosine) continue;
     const float t = s.from_place.dot(across), height = s.from_place.dot(n);
@@ -146,7 +115,7 @@ Result<NormalJump> measure_normal_jump(const Mesh& mesh, const FaceTable& table,
     explicit Local(const FaceTable& faces) : window(faces) {}
     FaceWindow window;
     std::vector<FaceId> seeds;
-    std::vector<Sample> samples;
+    std::vector<WindowFace> samples;
   };
   tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
   // Share by share, so that progress is told and a stop is seen by one thread, in between.

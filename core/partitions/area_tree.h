@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/context.h"
+#include "core/base/result.h"
+#include "core/mesh/mesh.h"
+#include "core/partitions/area_borders.h"
+#include "core/partitions/border_kink.h"
+#include "core/partitions/curvature_kinks.h"
+#include "core/partitions/surface_fit.h"
+#include "core/partitions/surface_growing.h"
+#include "core/sharp_lines/face_table.h"
+#include "core/sharp_lines/lines.h"
+#include "core/sharp_lines/watershed.h"
+
+namespace arris {
+
+/// Lengths in mean edges, angles in degrees, areas in equilateral faces of the mean edge.
+struct AreaTreeOptions {
+  float band = 1.5F;  // faces nearer than this to a line are rounded by it: they do not vote
+  float narrow_band = 0.8F;  // and nearer than this in strips too narrow for that,
+  int narrow_rings = 3;      // told by steps over sides from faces that vote
+  CurvatureKinkOptions kinks;
+  WatershedOptions watershed{0.5F, 6.0F};  // of the kinks
+  float first_cut = 1.8F;                   // borders weaker than this by their kinks go unfitted
+  float first_quantile = 0.4F;              // of a border's kinks along it: what it counts for
+  float first_area = 40.0F;                 // below it an area joins the more easily
+  int grow = 2;
+  SurfaceGrowingOptions growing;
+  int grain = 8;                            // faces that make one sample of an area
+  std::size_t samples = 256;                // of an area, at most
+  float rise = 10.0F;          // of the misfits, summed up, by a join to one surface: this much,
+  float rise_each = 1.0F;      // and this for each sample of the smaller area
+  float rise_border = 0.6F;  // and for each edge of border between the two
+  float free_border = 1.0F;
+  float rise_area = 50.0F;     // up to this many
+  float free = 2.5F;           // mean misfit at which an area is rather free than of a surface
+  float blend = 15.0F;        // least radius of a torus up to which it is more than a free area
+  float free_rise = 30.0F;     // of the misfits by a join over a kink, at most
+  float kink = 2.4F;           // degrees of kink at which areas are joined
+  float small = 25.0F;        // areas under this are joined the more easily
+  float line_share = 0.5F;    // of a border that is a line: from here on nothing is joined over it
+  int rounds = 5;             // up to the height 1, measured again after each
+  float distance = 0.01F;     // least noise of a sample along the normal
+  float angle = 0.3F;         // and across
+  double face_noise = 1.5;     // distance of a face over that of a sample
+  bool surfaces = true;       // joins by fitted surfaces
+  BorderKinkOptions border;
+  AreaBorderOptions settling;
+};
+
+/// Areas of a mesh, joined up to some height.
+struct Areas {
+  std::vector<std::uint32_t> of_face;
+  std::vector<FittedSurface> surfaces;  ///< Of each: mean edges, about the middle of the box.
+};
+
+/// Areas of a mesh at every level of detail at once: the smallest ones, and in which order they are
+/// joined.
+struct AreaTree {
+  FaceTable table;                      ///< Without neighbours over lines.
+  std::vector<float> edge_length;       ///< Mean edges.
+  std::vector<std::uint8_t> banded;     ///< Per face: 1 where a line rounds it.
+  std::vector<std::uint32_t> smallest;  ///< Per face: its smallest area, from 0.
+  std::vector<FittedSurface> surfaces;  ///< Of those.
+  /// `gone` becomes part of `into`, which is of `surface` then, where areas are joined up to
+  /// `height`; 1 is the usual. By increasing height.
+  struct Join {
+    std::uint32_t into, gone;
+    float height;
+    FittedSurface surface;
+  };
+  std::vector<Join> joins;
+  SurfaceNoise noise;       ///< Of the samples that were fitted.
+  SurfaceNoise face_noise;  ///< Of a face.
+  AreaTreeOptions options;
+
+  /// Joined up to `height`, with their borders settled, and no area under `least` faces unless lines
+  /// enclose it.
+  Areas cut(float height, std::uint32_t least) const;
+};
+
+/// Errors: cancelled.
+Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
+                                const AreaTreeOptions& options, const Context& context);
+
+}  // namespace arris

@@ -1,0 +1,184 @@
+#include "core/partitions/curvature_kinks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/base/parallel.h"
+#include "core/sharp_lines/normal_window.h"
+
+namespace arris {
+
+namespace {
+
+using Eigen::Vector3f;
+using Fields = Eigen::Matrix<float, 3, 2>;
+constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
+constexpr std::size_t least_faces = 8;  // of a window
+
+struct Measured {
+  float kink = 0.0F, missed = 0.0F;  // degrees
+  Vector3f across = Vector3f::Zero(), normal = Vector3f::Zero();
+};
+
+/// Sums of a linear regression of the normals' two angles on (1, t, y).
+struct Side {
+  Eigen::Matrix3f gram = Eigen::Matrix3f::Zero();
+  Fields right = Fields::Zero();
+
+  /// How much of the sum of squares a linear field explains.
+  float explained(float ridge) const {
+    const float w = gram(0, 0);
+    Eigen::Matrix3f held = gram;
+    held(0, 0) += 1e-6F * w;
+    held(1, 1) += ridge * w;
+    held(2, 2) += ridge * w;
+    const Fields x = held.llt().solve(right);
+    return 2.0F * x.cwiseProduct(right).sum() - (x.transpose() * gram * x).trace();
+  }
+};
+
+Measured measure(const std::vector<WindowFace>& faces, const CurvatureKinkOptions& options,
+                 const FallingExponential& falling) {
+  Measured result;
+  Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
+  float weight = 0.0F;
+  Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
+  const float spread2 = 0.5F / (options.spread * options.spread);
+  for (const WindowFace& f : faces) {
+    const float w = f.area * falling(f.from_place.squaredNorm() * spread2);
+    const Vector3f wn = w * f.normal;
+    sum += wn;
+    weight += w;
+    moment += w * f.from_place;
+    change.noalias() += wn * f.from_place.transpose();
+  }
+  const float length = sum.norm();
+  if (!(length > 1e-6F * weight)) return result;
+  const Vector3f n = sum / length;
+  change.noalias() -= (sum / weight) * moment.transpose();
+  const Vector3f x =
+      (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
+  const Vector3f y = n.cross(x);
+  const Vector3f change_x = change * x, change_y = change * y;
+  const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),
+                                        change_x.squaredNorm() - change_y.squaredNorm());
+  result.across = std::cos(angle) * x + std::sin(angle) * y;
+  result.normal = n;
+  const Vector3f along = n.cross(result.across);
+
+  std::array<Side, 2> sides;
+  float squares = 0.0F;
+  const float along2 = 1.0F / (options.along * options.along);
+  for (const WindowFace& f : faces) {
+    const float t = f.from_place.dot(result.across), height = f.from_place.dot(n);
+    const float distance = std::sqrt(t * t + height * height) / options.across;
+    if (distance > 1.0F) continue;
+    const float cosine = f.normal.dot(n);
+    if (cosine < 0.2F) continue;
+    const float u = f.from_place.dot(along);
+    const float w = f.area * falling(u * u * along2) * (1.0F - 0.5F * distance);
+    const Eigen::Vector2f turn = angle_over_sine(1.0F - cosine) *
+                                 Eigen::Vector2f(f.normal.dot(result.across), f.normal.dot(along));
+    const Vector3f at(1.0F, t > 0.0F ? distance : -distance, u / options.across);
+    Side& side = sides[t > 0.0F];
+    side.gram.noalias() += (w * at) * at.transpose();
+    side.right.noalias() += (w * at) * turn.transpose();
+    squares += w * turn.squaredNorm();
+  }
+  const float w0 = sides[0].gram(0, 0), w1 = sides[1].gram(0, 0), w = w0 + w1;
+  if (!(w0 > 0.0F) || !(w1 > 0.0F)) return result;
+  const Side both{sides[0].gram + sides[1].gram, sides[0].right + sides[1].right};
+  const float apart = sides[0].explained(options.ridge) + sides[1].explained(options.ridge);
+  const float kink = std::max(0.0F, apart - both.explained(options.ridge)) / w;
+  // With nearly all faces on one side the other explains anything.
+  const float balance = 2.0F * std::sqrt(w0 * w1) / w;
+  result.kink = std::sqrt(kink) * degrees * std::min(1.0F, 1.2F * balance);
+  result.missed = std::sqrt(std::max(0.0F, squares - apart) / w / 2.0F) * degrees;
+  return result;
+}
+
+}  // namespace
+
+Result<CurvatureKinks> measure_curvature_kinks(const Mesh& mesh, const FaceTable& table,
+                                               const std::vector<std::uint8_t>& skipped,
+                                               const CurvatureKinkOptions& options,
+                                               const Context& context) {
+  const std::size_t vertices = mesh.vertex_count();
+  std::vector<Measured> measured(vertices);
+  const FallingExponential falling;
+  struct Local {
+    explicit Local(const FaceTable& all) : window(all) {}
+    FaceWindow window;
+    std::vector<FaceId> seeds;
+    std::vector<WindowFace> faces;
+  };
+  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
+  const float reach = std::max(options.across, 1.2F * options.along);
+  // Share by share, so that progress is told and a stop is seen by one thread, in between.
+  constexpr std::size_t shares = 50;
+  for (std::size_t share = 0; share < shares; ++share) {
+    if (context.cancelled()) return cancelled();
+    context.report(static_cast<double>(share) / shares, "kinks of curvature");
+    const std::size_t first = vertices * share / shares;
+    parallel_for(
+        vertices * (share + 1) / shares - first,
+        [&](std::size_t i) {
+          const VertexId v = static_cast<VertexId>(first + i);
+          Local& local = locals.local();
+          local.seeds.clear();
+          bool on_line = false;  // its sides do not belong to one window
+          mesh.for_ring(v, [&](HalfEdgeId h) {
+            const FaceId f = mesh.face(h), g = mesh.face(Mesh::opposite(h));
+            if (f == no_id) return;
+            local.seeds.push_back(f);
+            if (g == no_id) return;
+            const auto& beside = table.neighbours[f];
+            on_line |= std::find(beside.begin(), beside.end(), g) == beside.end();
+          });
+          if (local.seeds.empty() || on_line) return;
+          const Vector3f& place = table.points[v];
+          local.faces.clear();
+          for (const FaceId f : local.window.grow(local.seeds, place, reach))
+            if (!skipped[f])
+              local.faces.push_back(
+                  {table.faces[f].centre - place, table.faces[f].normal, table.faces[f].area});
+          if (local.faces.size() >= least_faces)
+            measured[v] = measure(local.faces, options, falling);
+        },
+        256);
+  }
+  CurvatureKinks result;
+  result.at_edge.assign(mesh.edge_count(), 0.0F);
+  parallel_for(mesh.edge_count(), [&](std::size_t i) {
+    const EdgeId e = static_cast<EdgeId>(i);
+    const auto [left, right] = mesh.edge_faces(e);
+    if (left == no_id || right == no_id) return;
+    const Vector3f apart = table.faces[right].centre - table.faces[left].centre;
+    float kink = 0.0F, ends = 0.0F;
+    for (const VertexId v : mesh.edge(e)) {
+      const Measured& m = measured[v];
+      if (m.normal.isZero()) continue;
+      const Vector3f way = apart - m.normal * apart.dot(m.normal);
+      const float length = way.norm();
+      const float slant = length > 0.0F ? std::abs(way.dot(m.across)) / length : 1.0F;
+      kink += m.kink * std::min(1.0F, slant / options.least_slant);
+      ends += 1.0F;
+    }
+    if (ends > 0.0F) result.at_edge[i] = kink / ends;
+  });
+  std::vector<float> missed;
+  for (const Measured& m : measured)
+    if (m.missed > 0.0F) missed.push_back(m.missed);
+  if (!missed.empty()) {
+    const auto middle = missed.begin() + static_cast<std::ptrdiff_t>(missed.size() / 2);
+    std::nth_element(missed.begin(), middle, missed.end());
+    result.noise = *middle;
+  }
+  return result;
+}
+
+}  // namespace arris

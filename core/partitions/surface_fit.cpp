@@ -1,0 +1,469 @@
+#include "core/partitions/surface_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace arris {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::array<Vector3d, 2> tangents(const Vector3d& n) {
+  const Vector3d x =
+      (std::abs(n[0]) < 0.7 ? Vector3d::UnitX() : Vector3d::UnitY()).cross(n).normalized();
+  return {x, n.cross(x)};
+}
+
+/// Unit eigenvector of the least eigenvalue.
+Vector3d least_direction(const Matrix3d& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
+  solver.computeDirect(symmetric);
+  return solver.eigenvectors().col(0);
+}
+
+/// Moments of the samples about their centre.
+struct Moments {
+  double weight = 0.0;
+  Vector3d centre = Vector3d::Zero(), normal = Vector3d::Zero();  // means
+  Matrix3d points = Matrix3d::Zero();                             // mean (p - c)(p - c)^T
+  Matrix3d normals = Matrix3d::Zero();                            // mean n n^T
+  double together = 0.0;                                          // mean (p - c) . (n - mean n)
+
+  explicit Moments(std::span<const SurfaceSample> samples) {
+    for (const SurfaceSample& s : samples) {
+      weight += s.weight;
+      centre += s.weight * s.point;
+      normal += s.weight * s.normal;
+    }
+    centre /= weight;
+    normal /= weight;
+    for (const SurfaceSample& s : samples) {
+      const Vector3d p = s.point - centre;
+      points.noalias() += s.weight * p * p.transpose();
+      normals.noalias() += s.weight * s.normal * s.normal.transpose();
+      together += s.weight * p.dot(s.normal);
+    }
+    points /= weight;
+    normals /= weight;
+    together /= weight;
+  }
+  Matrix3d turn() const { return normals - normal * normal.transpose(); }
+};
+
+/// Fits one surface after the other and keeps the best.
+class Fitting {
+ public:
+  Fitting(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+          const SurfaceFitOptions& options)
+      : samples_(samples), noise_(noise), options_(options), moments_(samples) {
+    best_.misfit = std::numeric_limits<double>::infinity();
+  }
+
+  FittedSurface best() {
+    plane();
+    if (samples_.size() >= 4) {
+      sphere();
+      cylinder();
+      cone();
+      if (options_.torus) {
+        torus();
+        torus_by_curvature();
+      }
+    }
+    return best_;
+  }
+
+  FittedSurface free() {
+    Surface surface;
+    if (height_field(surface)) judge(surface);
+    return best_;
+  }
+
+ private:
+  double judge(const Surface& surface) {
+    double sum = 0.0;
+    for (const SurfaceSample& s : samples_) {
+      const Surface::At at = surface.at(s.point);
+      const double d = at.distance / noise_.distance;
+      // 2 (1 - cos) is the squared angle as far as it counts.
+      const double turn = std::max(0.0, 2.0 * (1.0 - at.normal.dot(s.normal)));
+      const double a = turn / (2.0 * noise_.angle * noise_.angle);
+      sum += s.weight * 0.5 * (std::min(d * d, options_.most) + std::min(a, options_.most));
+    }
+    static constexpr std::array<double, 6> parameters{3, 4, 5, 6, 7, 6};
+    const double misfit = sum / moments_.weight +
+                          options_.price * parameters[static_cast<std::size_t>(surface.type)] /
+                              static_cast<double>(samples_.size());
+    if (misfit < best_.misfit) best_ = {surface, misfit};
+    return misfit;
+  }
+
+  /// Judges a first estimate, and what least squares make of it where it is near.
+  void try_out(Surface surface) {
+    const double first = judge(surface);
+    if (options_.steps == 0 || first > options_.near) return;
+    constexpr std::size_t most = 64;
+    const std::size_t stride = std::max<std::size_t>(1, samples_.size() / most);
+    for (int step = 0; step < options_.steps; ++step)
+      if (!improve(surface, stride)) return;
+    judge(surface);
+  }
+
+  /// A step of Gauss and Newton on distances and normals, far samples counting less.
+  bool improve(Surface& surface, std::size_t stride) const {
+    using Row = Eigen::Matrix<double, 8, 1>;
+    Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Zero();
+    Row right = Row::Zero();
+    const double by_distance = 1.0 / noise_.distance, by_angle = 1.0 / noise_.angle;
+    const double size = std::max(std::sqrt(moments_.points.trace()), 1e-9);
+    // Shift along three axes, tilt about two, radius, tube and half angle: those the surface has.
+    const auto [x, y] = tangents(surface.axis);
+    std::array<Surface, 8> moved;
+    std::array<bool, 8> has{true, true, true, true, true, true, false, false};
+    const double shift = 1e-4 * size, tilt = 1e-4;
+    std::array<double, 8> by{shift, shift, shift, tilt, tilt, shift, shift, tilt};
+    has[3] = has[4] = surface.type != SurfaceType::sphere;
+    has[5] = surface.type != SurfaceType::cone;
+    has[6] = surface.type == SurfaceType::torus;
+    has[7] = surface.type == SurfaceType::cone;
+    for (std::size_t k = 0; k < 8; ++k) {
+      moved[k] = surface;
+      if (k < 3) moved[k].point += shift * (k == 0 ? x : k == 1 ? y : surface.axis);
+      if (k == 3) moved[k].axis = turned(surface, tilt * x, moved[k].point);
+      if (k == 4) moved[k].axis = turned(surface, tilt * y, moved[k].point);
+      if (k == 5) moved[k].radius += shift;
+      if (k == 6) moved[k].tube += shift;
+      if (k == 7) moved[k].half_angle += tilt;
+    }
+    for (std::size_t i = 0; i < samples_.size(); i += stride) {
+      const SurfaceSample& s = samples_[i];
+      const Surface::At at = surface.at(s.point);
+      const Vector3d off = at.normal - s.normal;
+      const double chi = at.distance * at.distance * by_distance * by_distance +
+                         0.5 * off.squaredNorm() * by_angle * by_angle;
+      const double w = s.weight * (chi > options_.most ? options_.most / chi : 1.0);
+      Row distance = Row::Zero();
+      std::array<Row, 3> normal{Row::Zero(), Row::Zero(), Row::Zero()};
+      for (int k = 0; k < 8; ++k) {
+        const auto at_k = static_cast<std::size_t>(k);
+        if (!has[at_k]) continue;
+        const Surface::At other = moved[at_k].at(s.point);
+        distance[k] = (other.distance - at.distance) / by[at_k] * by_distance;
+        const Vector3d change = (other.normal - at.normal) / by[at_k] * by_angle;
+        for (std::size_t c = 0; c < 3; ++c) normal[c][k] = change[static_cast<Eigen::Index>(c)];
+      }
+      gram.noalias() += w * distance * distance.transpose();
+      right -= w * at.distance * by_distance * distance;
+      for (std::size_t c = 0; c < 3; ++c) {
+        gram.noalias() += w * normal[c] * normal[c].transpose();
+        right -= w * off[static_cast<Eigen::Index>(c)] * by_angle * normal[c];
+      }
+    }
+    for (int k = 0; k < 8; ++k) {
+      if (!has[static_cast<std::size_t>(k)]) gram(k, k) = 1.0;
+      gram(k, k) *= 1.0 + 1e-6;
+      gram(k, k) += 1e-12 * gram.trace();
+    }
+    const Row step = gram.ldlt().solve(right);
+    if (!step.allFinite() || std::abs(step[3]) > 0.3 || std::abs(step[4]) > 0.3) return false;
+    surface.point += step[0] * x + step[1] * y + step[2] * surface.axis;
+    surface.axis = turned(surface, step[3] * x + step[4] * y, surface.point);
+    surface.radius += step[5];
+    surface.tube += step[6];
+    surface.half_angle += step[7];
+    const bool round = surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder;
+    if (surface.type == SurfaceType::torus)
+      return surface.radius > 0.0 && surface.radius < options_.largest_radius &&
+             surface.tube >= options_.least_tube && surface.tube < options_.largest_radius;
+    if (round) return surface.radius > 0.0 && surface.radius < options_.largest_radius;
+    return surface.half_angle > 0.02 && surface.half_angle < 1.55;
+  }
+
+  /// The axis tilted about the middle of the samples; `point` is shifted with it.
+  Vector3d turned(const Surface& surface, const Vector3d& tilt, Vector3d& point) const {
+    const Vector3d axis = (surface.axis + tilt).normalized();
+    if (surface.type == SurfaceType::sphere) return axis;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(surface.axis, axis);
+    point = moments_.centre + turn * (point - moments_.centre);
+    return axis;
+  }
+
+  /// Least squares of heights over the mean plane; false where the samples turn too far for that.
+  bool height_field(Surface& surface) const {
+    surface.type = SurfaceType::free;
+    surface.point = moments_.centre;
+    if (!(moments_.normal.norm() > 1e-9)) return false;
+    surface.axis = moments_.normal.normalized();
+    const auto [x, y] = tangents(surface.axis);
+    Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+    const double wd = 1.0 / (noise_.distance * noise_.distance),
+                 wn = 1.0 / (noise_.angle * noise_.angle);
+    for (const SurfaceSample& s : samples_) {
+      const double up = s.normal.dot(surface.axis);
+      if (up < 0.3) return false;
+      const Vector3d d = s.point - surface.point;
+      const double u = d.dot(x), v = d.dot(y), z = d.dot(surface.axis);
+      const auto add = [&](const Eigen::Matrix<double, 6, 1>& row, double value, double w) {
+        gram.noalias() += w * row * row.transpose();
+        right += w * value * row;
+      };
+      // A distance counts along the normal, an angle across it.
+      add({1.0, u, v, u * u, u * v, v * v}, z, s.weight * wd * up * up);
+      const double slope = s.weight * wn * up * up;
+      add({0.0, 1.0, 0.0, 2.0 * u, v, 0.0}, -s.normal.dot(x) / up, slope);
+      add({0.0, 0.0, 1.0, 0.0, u, 2.0 * v}, -s.normal.dot(y) / up, slope);
+    }
+    gram.diagonal().array() += 1e-9 * gram.trace();
+    surface.heights = gram.ldlt().solve(right);
+    return true;
+  }
+
+  void plane() {
+    Surface surface;
+    surface.type = SurfaceType::plane;
+    surface.point = moments_.centre;
+    surface.axis =
+        least_direction(moments_.points / (noise_.distance * noise_.distance) +
+                        (Matrix3d::Identity() - moments_.normals) / (noise_.angle * noise_.angle));
+    if (surface.axis.dot(moments_.normal) < 0.0) surface.axis = -surface.axis;
+    judge(surface);
+  }
+
+  void sphere() {
+    const double turn = moments_.turn().trace();
+    if (!(turn > 1e-12)) return;
+    Surface surface;
+    surface.type = SurfaceType::sphere;
+    // p = centre + radius n, by least squares.
+    double radius = moments_.together / turn;
+    if (!(std::abs(radius) < options_.largest_radius)) return;
+    Vector3d centre = moments_.centre - radius * moments_.normal;
+    surface.side = radius > 0.0 ? 1.0 : -1.0;
+    radius = std::abs(radius);
+    surface.point = centre;
+    surface.radius = radius;
+    try_out(surface);
+  }
+
+  void cylinder() {
+    Surface surface;
+    surface.type = SurfaceType::cylinder;
+    surface.axis = least_direction(moments_.normals);
+    // In the plane across the axis: p = centre + radius n.
+    const auto [x, y] = tangents(surface.axis);
+    const double tx = x.dot(moments_.normal), ty = y.dot(moments_.normal);
+    double turn = 0.0, together = 0.0;
+    for (const SurfaceSample& s : samples_) {
+      const Vector3d d = s.point - moments_.centre;
+      const double nx = x.dot(s.normal) - tx, ny = y.dot(s.normal) - ty;
+      turn += s.weight * (nx * nx + ny * ny);
+      together += s.weight * (x.dot(d) * nx + y.dot(d) * ny);
+    }
+    if (!(turn > 1e-12)) return;
+    const double radius = together / turn;
+    if (!(std::abs(radius) < options_.largest_radius)) return;
+    surface.side = radius > 0.0 ? 1.0 : -1.0;
+    surface.radius = std::abs(radius);
+    surface.point = moments_.centre - radius * (tx * x + ty * y);
+    try_out(surface);
+  }
+
+  void cone() {
+    Surface surface;
+    surface.type = SurfaceType::cone;
+    surface.axis = least_direction(moments_.turn());
+    double sine = surface.axis.dot(moments_.normal);
+    if (sine < 0.0) {
+      surface.axis = -surface.axis;
+      sine = -sine;
+    }
+    if (sine < 0.05 || sine > 0.98) return;
+    // Every tangent plane goes through the apex.
+    Vector3d right = Vector3d::Zero();
+    for (const SurfaceSample& s : samples_)
+      right += s.weight * s.normal.dot(s.point - moments_.centre) * s.normal;
+    Matrix3d gram = moments_.normals;
+    gram.diagonal().array() += 1e-9;
+    surface.point = moments_.centre + gram.ldlt().solve(right / moments_.weight);
+    surface.half_angle = std::asin(sine);
+    double side = 0.0;
+    for (const SurfaceSample& s : samples_) {
+      Vector3d d = s.point - surface.point;
+      d -= d.dot(surface.axis) * surface.axis;
+      side += s.weight * d.dot(s.normal);
+    }
+    surface.side = side > 0.0 ? 1.0 : -1.0;
+    try_out(surface);
+  }
+
+  void torus() {
+    // A surface of revolution: all normals meet the axis, a . (p x n) + b . n = 0 (Pottmann and
+    // Wallner, Computational Line Geometry).
+    Matrix3d nn = Matrix3d::Zero(), nm = Matrix3d::Zero(), mm = Matrix3d::Zero();
+    for (const SurfaceSample& s : samples_) {
+      const Vector3d m = (s.point - moments_.centre).cross(s.normal);
+      nn.noalias() += s.weight * s.normal * s.normal.transpose();
+      nm.noalias() += s.weight * s.normal * m.transpose();
+      mm.noalias() += s.weight * m * m.transpose();
+    }
+    nn.diagonal().array() += 1e-9 * moments_.weight;
+    const Matrix3d back = nn.ldlt().solve(nm);
+    const Vector3d a = least_direction(mm - nm.transpose() * back);
+    Vector3d b = -back * a;
+    b -= a * a.dot(b);
+    Surface surface;
+    surface.type = SurfaceType::torus;
+    surface.axis = a;
+    const Vector3d on_axis = moments_.centre + a.cross(b);
+    // In the half plane of the profile: (r, z) = middle + tube n.
+    double w = 0.0, r = 0.0, z = 0.0, nr = 0.0, nz = 0.0, rr = 0.0, together = 0.0;
+    for (const SurfaceSample& s : samples_) {
+      const Vector3d d = s.point - on_axis;
+      const double height = d.dot(a);
+      const Vector3d out = d - height * a;
+      const double length = out.norm();
+      if (!(length > 1e-12)) continue;
+      const double or_ = s.normal.dot(out) / length, oz = s.normal.dot(a);
+      w += s.weight;
+      r += s.weight * length;
+      z += s.weight * height;
+      nr += s.weight * or_;
+      nz += s.weight * oz;
+      rr += s.weight * (or_ * or_ + oz * oz);
+      together += s.weight * (length * or_ + height * oz);
+    }
+    if (!(w > 0.0)) return;
+    r /= w;
+    z /= w;
+    nr /= w;
+    nz /= w;
+    const double turn = rr / w - nr * nr - nz * nz;
+    if (!(turn > 1e-9)) return;
+    const double tube = (together / w - r * nr - z * nz) / turn;
+    const double middle = r - tube * nr;
+    if (std::abs(tube) < options_.least_tube || std::abs(tube) > options_.largest_radius ||
+        !(middle > 0.0) || middle > options_.largest_radius)
+      return;
+    surface.point = on_axis + (z - tube * nz) * a;
+    surface.radius = middle;
+    surface.tube = std::abs(tube);
+    surface.side = tube > 0.0 ? 1.0 : -1.0;
+    try_out(surface);
+  }
+
+  /// A torus from the curvatures in the middle: a short piece of one does not tell its axis.
+  void torus_by_curvature() {
+    Surface field;
+    if (!height_field(field)) return;
+    const Surface::At middle = field.at(field.point);
+    const Vector3d& n = middle.normal;
+    const Vector3d p = field.point - middle.distance * n;
+    const auto [x, y] = tangents(field.axis);
+    const double fu = field.heights[1], fv = field.heights[2];
+    const double root = std::sqrt(1.0 + fu * fu + fv * fv);
+    Eigen::Matrix2d first, second;
+    first << 1.0 + fu * fu, fu * fv, fu * fv, 1.0 + fv * fv;
+    second << -2.0 * field.heights[3], -field.heights[4], -field.heights[4],
+        -2.0 * field.heights[5];
+    second /= root;
+    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(second, first);
+    const double k0 = solver.eigenvalues()[0], k1 = solver.eigenvalues()[1];
+    const int strong = std::abs(k0) > std::abs(k1) ? 0 : 1;
+    const double strongest = strong == 0 ? k0 : k1, weakest = strong == 0 ? k1 : k0;
+    if (!(std::abs(weakest) * options_.largest_radius > 1.0)) return;
+    const Eigen::Vector2d direction = solver.eigenvectors().col(strong);
+    Surface surface;
+    surface.type = SurfaceType::torus;
+    surface.axis = ((x + fu * field.axis) * direction[0] + (y + fv * field.axis) * direction[1])
+                       .normalized();
+    surface.point = p - n / weakest;
+    surface.radius = std::abs(1.0 / strongest - 1.0 / weakest);
+    surface.tube = 1.0 / std::abs(strongest);
+    surface.side = strongest > 0.0 ? 1.0 : -1.0;
+    if (surface.tube < options_.least_tube || !(surface.radius > 0.0)) return;
+    try_out(surface);
+  }
+
+  std::span<const SurfaceSample> samples_;
+  const SurfaceNoise& noise_;
+  const SurfaceFitOptions& options_;
+  Moments moments_;
+  FittedSurface best_;
+};
+
+}  // namespace
+
+std::string_view name_of(SurfaceType type) {
+  static constexpr std::array<std::string_view, 6> names{"plane", "sphere", "cylinder",
+                                                         "cone",  "torus",  "free"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+Surface::At Surface::at(const Vector3d& p) const {
+  const Vector3d d = p - point;
+  switch (type) {
+    case SurfaceType::plane:
+      return {d.dot(axis), axis};
+    case SurfaceType::sphere: {
+      const double length = d.norm();
+      const Vector3d out = length > 0.0 ? Vector3d(d / length) : axis;
+      return {side * (length - radius), side * out};
+    }
+    case SurfaceType::cylinder: {
+      const Vector3d across = d - d.dot(axis) * axis;
+      const double length = across.norm();
+      const Vector3d out = length > 0.0 ? Vector3d(across / length) : tangents(axis)[0];
+      return {side * (length - radius), side * out};
+    }
+    case SurfaceType::cone: {
+      const Vector3d across = d - d.dot(axis) * axis;
+      const double length = across.norm();
+      const Vector3d out = length > 0.0 ? Vector3d(across / length) : tangents(axis)[0];
+      const Vector3d normal = std::sin(half_angle) * axis + side * std::cos(half_angle) * out;
+      return {d.dot(normal), normal};
+    }
+    case SurfaceType::torus: {
+      const double height = d.dot(axis);
+      const Vector3d across = d - height * axis;
+      const double length = across.norm();
+      const Vector3d out = length > 0.0 ? Vector3d(across / length) : tangents(axis)[0];
+      const Vector3d from_tube = (length - radius) * out + height * axis;
+      const double reach = from_tube.norm();
+      const Vector3d normal = reach > 0.0 ? Vector3d(from_tube / reach) : out;
+      return {side * (reach - tube), side * normal};
+    }
+    case SurfaceType::free:
+      break;
+  }
+  const auto [x, y] = tangents(axis);
+  const double u = d.dot(x), v = d.dot(y);
+  const double height = heights[0] + heights[1] * u + heights[2] * v + heights[3] * u * u +
+                        heights[4] * u * v + heights[5] * v * v;
+  const Vector3d normal = (axis - (heights[1] + 2.0 * heights[3] * u + heights[4] * v) * x -
+                           (heights[2] + heights[4] * u + 2.0 * heights[5] * v) * y)
+                              .normalized();
+  return {(d.dot(axis) - height) * normal.dot(axis), normal};
+}
+
+FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                          const SurfaceFitOptions& options) {
+  return Fitting(samples, noise, options).best();
+}
+
+FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                               const SurfaceFitOptions& options) {
+  return Fitting(samples, noise, options).free();
+}
+
+}  // namespace arris

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace arris {
+
+/// What an area may be: the surfaces of CAD, the simplest first, or none of them.
+enum class SurfaceType : std::uint8_t { plane, sphere, cylinder, cone, torus, free };
+
+std::string_view name_of(SurfaceType type);  ///< "plane", ..., "free".
+
+/// A place of a surface as it was measured.
+struct SurfaceSample {
+  Eigen::Vector3d point;
+  Eigen::Vector3d normal;  ///< Unit.
+  double weight = 1.0;
+};
+
+/// How far samples scatter about the surface that they are of.
+struct SurfaceNoise {
+  double distance = 1.0;  ///< In the unit of the points.
+  double angle = 0.01;    ///< Radians, of one of the two angles of a normal.
+};
+
+/// A surface. Angles in radians, lengths in the unit of the points it was fitted to.
+struct Surface {
+  SurfaceType type = SurfaceType::free;
+  /// plane: on it; sphere, torus: centre; cylinder: on the axis; cone: apex; free: origin of the
+  /// height field.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /// plane: normal; cylinder, cone, torus: axis (a cone's points away from where it opens to the
+  /// samples' normals: normal . axis = sin(half_angle) sign and all); free: direction of heights.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double radius = 0.0;      ///< Of sphere and cylinder; of a torus, of its middle circle.
+  double tube = 0.0;        ///< Of a torus: radius of the tube.
+  double half_angle = 0.0;  ///< Of a cone: between axis and surface, 0 to pi / 2.
+  double side = 1.0;        ///< 1 where normals point away from axis or centre, -1: towards it.
+  /// Of a free surface: height over the tangent directions x, y, x^2, xy, y^2.
+  Eigen::Matrix<double, 6, 1> heights = Eigen::Matrix<double, 6, 1>::Zero();
+
+  /// Signed distance of a point along the surface's normal there, and that normal.
+  struct At {
+    double distance;
+    Eigen::Vector3d normal;
+  };
+  At at(const Eigen::Vector3d& p) const;
+};
+
+struct FittedSurface {
+  Surface surface;
+  /// Mean over the samples of half the squared distance and half the squared turn of the normal,
+  /// both over the noise and limited; 1 where the noise is all.
+  double misfit = 0.0;
+};
+
+struct SurfaceFitOptions {
+  double most = 9.0;            // squares over the noise are limited to this
+  double price = 1.0;           // of a parameter of the surface, in misfit of one sample
+  bool torus = true;            // whether tori are tried
+  int steps = 3;                // of least squares after the first estimate
+  double near = 8.0;            // misfit of that from which on they are not worth it
+  double least_tube = 0.3;      // of a torus, in the unit of the points
+  double largest_radius = 1e4;  // beyond it is a plane, in the unit of the points
+};
+
+/// The best of plane, sphere, cylinder, cone and torus.
+FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                          const SurfaceFitOptions& options = {});
+
+/// A height field of degree two over the mean plane; misfit infinite where the samples turn too far
+/// for one.
+FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                               const SurfaceFitOptions& options = {});
+
+}  // namespace arris

@@ -1,0 +1,194 @@
+#include "core/partitions/surface_growing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/parallel.h"
+
+namespace arris {
+
+namespace {
+
+/// Half the squared distance and turn of a sample over the noise, without limit.
+double misfit_of(const SurfaceSample& s, const Surface& surface, const SurfaceNoise& noise) {
+  const Surface::At at = surface.at(s.point);
+  const double d = at.distance / noise.distance;
+  const double turn = std::max(0.0, 2.0 * (1.0 - at.normal.dot(s.normal)));
+  return 0.5 * (d * d + turn / (2.0 * noise.angle * noise.angle));
+}
+
+class Growing {
+ public:
+  Growing(const Grains& grains, const SurfaceNoise& noise, const SurfaceGrowingOptions& options)
+      : grains_(grains),
+        noise_(noise),
+        options_(options),
+        surface_(grains.size(), no_id),
+        seen_(grains.size(), 0) {}
+
+  std::vector<std::uint32_t> run() {
+    // Grains of each area; the areas by their size.
+    std::uint32_t areas = 0;
+    for (const std::uint32_t a : grains_.area) areas = std::max(areas, a + 1);
+    std::vector<std::vector<std::uint32_t>> members(areas);
+    for (std::uint32_t k = 0; k < grains_.size(); ++k) members[grains_.area[k]].push_back(k);
+    std::vector<std::uint32_t> order(areas);
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return members[a].size() > members[b].size();
+    });
+    for (const std::uint32_t a : order) {
+      if (members[a].size() < options_.least) break;
+      grow(members[a]);
+      // What it did not explain, from places in it.
+      for (const std::uint32_t k : members[a]) {
+        if (surface_[k] != no_id || tried(k)) continue;
+        grow(window(k));
+      }
+    }
+    return std::move(surface_);
+  }
+
+ private:
+  bool tried(std::uint32_t k) { return seen_[k] == tried_mark; }
+
+  /// Free grains about one, in its area.
+  std::vector<std::uint32_t> window(std::uint32_t first) {
+    ++stamp_;
+    std::vector<std::uint32_t> found{first};
+    seen_[first] = stamp_;
+    for (std::size_t i = 0; i < found.size() && found.size() < options_.seed; ++i)
+      for (const std::uint32_t k : grains_.around(found[i]))
+        if (seen_[k] != stamp_ && surface_[k] == no_id && grains_.area[k] == grains_.area[first] &&
+            found.size() < options_.seed) {
+          seen_[k] = stamp_;
+          found.push_back(k);
+        }
+    return found;
+  }
+
+  FittedSurface fit(const std::vector<std::uint32_t>& members) const {
+    std::vector<SurfaceSample> samples;
+    const std::size_t step = std::max<std::size_t>(1, members.size() / options_.samples);
+    for (std::size_t i = 0; i < members.size(); i += step)
+      samples.push_back(grains_.samples[members[i]]);
+    return fit_surface(samples, noise_);
+  }
+
+  bool grow(std::vector<std::uint32_t> members) {
+    std::erase_if(members, [&](std::uint32_t k) { return surface_[k] != no_id; });
+    if (members.size() < options_.least) return false;
+    FittedSurface fitted = fit(members);
+    if (fitted.misfit > 2.0 * options_.good) return false;
+    for (int round = 0; round < options_.rounds; ++round) {
+      // From the grain that fits best, so that what is reached hangs together.
+      std::uint32_t first = members.front();
+      double least = 1e300;
+      for (const std::uint32_t k : members)
+        if (const double m = misfit_of(grains_.samples[k], fitted.surface, noise_); m < least) {
+          least = m;
+          first = k;
+        }
+      if (least > options_.admits) return false;
+      ++stamp_;
+      std::vector<std::uint32_t> reached{first};
+      seen_[first] = stamp_;
+      const std::size_t most = 3 * members.size() + 10;
+      for (std::size_t i = 0; i < reached.size() && reached.size() < most; ++i)
+        for (const std::uint32_t k : grains_.around(reached[i]))
+          if (seen_[k] != stamp_ && surface_[k] == no_id) {
+            seen_[k] = stamp_;
+            if (misfit_of(grains_.samples[k], fitted.surface, noise_) <= options_.admits)
+              reached.push_back(k);
+          }
+      if (reached.size() < options_.least) return false;
+      const bool settled = reached.size() <= members.size() + members.size() / 50 &&
+                           reached.size() + members.size() / 50 >= members.size();
+      members.swap(reached);
+      fitted = fit(members);
+      if (settled) break;
+    }
+    if (fitted.misfit > options_.good) return false;
+    for (const std::uint32_t k : members) surface_[k] = count_;
+    ++count_;
+    return true;
+  }
+
+  static constexpr std::uint32_t tried_mark = 0xFFFFFFFFu;
+  const Grains& grains_;
+  const SurfaceNoise& noise_;
+  const SurfaceGrowingOptions& options_;
+  std::vector<std::uint32_t> surface_;
+  std::vector<std::uint32_t> seen_;
+  std::uint32_t stamp_ = 0;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace
+
+Grains make_grains(const FaceTable& table, const FaceRegions& areas,
+                   const std::vector<std::uint8_t>& banded, int faces) {
+  Grains grains;
+  grains.of_face.assign(table.size(), no_id);
+  const auto most = static_cast<std::size_t>(faces);
+  std::vector<FaceId> members;
+  for (FaceId first = 0; first < table.size(); ++first) {
+    if (banded[first] || grains.of_face[first] != no_id) continue;
+    const auto number = static_cast<std::uint32_t>(grains.size());
+    members.assign(1, first);
+    grains.of_face[first] = number;
+    for (std::size_t i = 0; i < members.size() && members.size() < most; ++i)
+      for (const FaceId g : table.neighbours[members[i]])
+        if (g != no_id && !banded[g] && grains.of_face[g] == no_id &&
+            areas.of_face[g] == areas.of_face[first] && members.size() < most) {
+          grains.of_face[g] = number;
+          members.push_back(g);
+        }
+    SurfaceSample sample{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
+    for (const FaceId f : members) {
+      const double area = static_cast<double>(table.faces[f].area);
+      sample.point += area * table.faces[f].centre.cast<double>();
+      sample.normal += area * table.faces[f].normal.cast<double>();
+      sample.weight += area;
+    }
+    if (sample.weight > 0.0) sample.point /= sample.weight;
+    if (sample.normal.norm() > 0.0) sample.normal.normalize();
+    sample.weight /= static_cast<double>(mean_face_area);
+    grains.samples.push_back(sample);
+    grains.area.push_back(areas.of_face[first]);
+  }
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (FaceId f = 0; f < table.size(); ++f)
+    for (const FaceId g : table.neighbours[f])
+      if (g != no_id && grains.of_face[f] != no_id && grains.of_face[g] != no_id &&
+          grains.of_face[f] != grains.of_face[g])
+        pairs.push_back({grains.of_face[f], grains.of_face[g]});
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  grains.starts.assign(grains.size() + 1, 0);
+  for (const auto& pair : pairs) ++grains.starts[pair[0] + 1];
+  for (std::size_t k = 0; k < grains.size(); ++k) grains.starts[k + 1] += grains.starts[k];
+  grains.links.reserve(pairs.size());
+  for (const auto& pair : pairs) grains.links.push_back(pair[1]);
+  return grains;
+}
+
+std::vector<std::uint32_t> grow_surfaces(const Grains& grains, const SurfaceNoise& noise,
+                                         const SurfaceGrowingOptions& options) {
+  return Growing(grains, noise, options).run();
+}
+
+std::vector<SurfaceSample> thinned(std::vector<SurfaceSample> samples, std::size_t most) {
+  if (samples.size() <= most) return samples;
+  std::vector<SurfaceSample> result;
+  result.reserve(most);
+  const double more = static_cast<double>(samples.size()) / static_cast<double>(most);
+  for (std::size_t k = 0; k < most; ++k) {
+    result.push_back(samples[k * samples.size() / most]);
+    result.back().weight *= more;
+  }
+  return result;
+}
+
+}  // namespace arris
