@@ -231,7 +231,7 @@ int segment(const std::string& scan, const std::string& folder, const Segmentati
     if (operation.name == "find_partitions") {
       if (wanted.smoothing_passes > 0)
         operations.push_back({"smooth_curvature", {{"passes", wanted.smoothing_passes}}});
-      operation.parameters = wanted.partitions;
+      operation.parameters.update(wanted.partitions);
     }
     operations.push_back(std::move(operation));
   }
@@ -455,6 +455,18 @@ int main(int argc, char** argv) {
       segment_command
           ->add_option("--min-length", min_length, "Isolated lines shorter than this go (mm)")
           ->check(CLI::NonNegativeNumber);
+  std::string partition_method;
+  double detail = 1.0;
+  CLI::Option* partition_method_option =
+      segment_command
+          ->add_option("--partitions", partition_method,
+                       "surfaces (areas that one surface explains) or fronts (the paper's, which "
+                       "--criterion, --interval and --fill-holes mean)")
+          ->check(CLI::IsMember({"surfaces", "fronts"}));
+  CLI::Option* detail_option =
+      segment_command
+          ->add_option("--detail", detail, "Of surfaces: below 1 fewer and larger, above 1 more")
+          ->check(CLI::Range(0.05, 20.0));
   CLI::Option* criterion_option =
       segment_command->add_option("--criterion", criterion, "kabs or ikabs")
           ->check(CLI::IsMember({"kabs", "ikabs"}));
@@ -561,6 +573,9 @@ int main(int argc, char** argv) {
   if (*method_option) lines["method"] = method;
   if (*candidates_option) lines["candidates"] = candidates;
   if (*length_option) lines["min_length"] = min_length;
+  if (*criterion_option || *fill_option) partitions["method"] = "fronts";
+  if (*partition_method_option) partitions["method"] = partition_method;
+  if (*detail_option) partitions["detail"] = detail;
   if (*criterion_option) partitions["criterion"] = criterion;
   if (*faces_option) partitions["min_faces"] = min_faces;
   if (*fill_option) partitions["fill_holes"] = fill_holes;

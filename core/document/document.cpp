@@ -105,6 +105,12 @@ Criterion Document::criterion() const {
              : Criterion::kabs;
 }
 
+PartitionMethod Document::partition_method() const {
+  return find_partitions && find_partitions->parameters.value("method", "fronts") == "fronts"
+             ? PartitionMethod::fronts
+             : PartitionMethod::surfaces;
+}
+
 LineMethod Document::line_method() const {
   return find_sharp_lines && find_sharp_lines->parameters.value("method", "walk") == "walk"
              ? LineMethod::walk
@@ -200,6 +206,7 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
   if (document.curvatures && document.curvatures != base.curvatures)
     bytes += document.curvatures->bytes();
   if (document.evidence && document.evidence != base.evidence) bytes += document.evidence->bytes();
+  if (document.areas && document.areas != base.areas) bytes += document.areas->bytes();
   const auto add_stage = [&](const Stage& stage, const Stage& other) {
     if (stage.mesh && stage.mesh != document.mesh && stage.mesh != other.mesh)
       bytes += stage.mesh->bytes() + (stage.curvatures ? stage.curvatures->bytes() : 0);

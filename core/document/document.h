@@ -16,6 +16,7 @@
 #include "core/mesh/scan.h"
 #include "core/partitions/boundaries.h"
 #include "core/partitions/partitions.h"
+#include "core/partitions/shared_area_tree.h"
 #include "core/sharp_lines/lines.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "core/simplification/error_zones.h"
@@ -48,6 +49,9 @@ struct Document {
   ErrorZonesPtr zones;       ///< Of `mesh`; null: nothing was simplified or swapped.
   /// What tells sharp lines on `mesh`; derived, shared, and worked out when it is first needed.
   SharedLineEvidencePtr evidence;
+  /// Areas of `mesh` between its lines; derived, shared. Null, or of another mesh: nobody has
+  /// needed it yet.
+  SharedAreaTreePtr areas = nullptr;
   /// Outputs of the steps before: the scan (flipped, cropped), then simplified, then swapped.
   /// Running a step again starts from the last of those before it (document.md, rule 3).
   Stage opened, simplified, swapped;
@@ -76,6 +80,8 @@ struct Document {
   bool is_divided_as(const Document& other) const;
   /// The criterion by which the partitions were found; kabs where they were not.
   Criterion criterion() const;
+  /// The method by which the partitions were found; surfaces where they were not.
+  PartitionMethod partition_method() const;
   /// The method by which the lines were found; normal_jump where they were not.
   LineMethod line_method() const;
   /// What is shown and what partitions are found by: smoothed where that was run.

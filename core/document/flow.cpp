@@ -7,7 +7,7 @@ std::vector<Operation> operations_of(Flow flow) {
   return {{"simplify"},
           {"find_sharp_lines", {{"method", "walk"}}},
           {"equilateralize"},
-          {"find_partitions"}};
+          {"find_partitions", {{"method", "fronts"}}}};
 }
 
 }  // namespace arris

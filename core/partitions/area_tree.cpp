@@ -249,7 +249,7 @@ SurfaceNoise noise_of(const std::vector<Samples>& samples, const SurfaceNoise& l
       },
       4);
   std::erase_if(scatters, [](const Scatter& s) { return !(s.weight > 0.0); });
-  const auto middle_of = [&](double Scatter::* value) {
+  const auto middle_of = [&](double Scatter::*value) {
     std::ranges::sort(scatters, {}, value);
     double half = 0.0, sum = 0.0;
     for (const Scatter& s : scatters) half += s.weight / 2.0;
@@ -360,12 +360,16 @@ class AreaJoining {
                  nb = static_cast<double>(voting_[b]) / options_.grain;
     const auto rise = static_cast<float>(price_of(misfit, na + nb) - price_of(fits_[a].misfit, na) -
                                          price_of(fits_[b].misfit, nb));
-    const auto smaller = static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
-    const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
-                                 ? std::max(0.0F, rise) / (options_.rise + options_.rise_each * smaller + options_.rise_border * border.sums.length)
-                                 : never;
-    const float by_kink =
-        std::max(cost_by_kink(border, a, b), std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
+    const auto smaller =
+        static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
+    const float by_surface =
+        misfit < static_cast<double>(options_.free) && options_.surfaces
+            ? std::max(0.0F, rise) / (options_.rise + options_.rise_each * smaller +
+                                      options_.rise_border * border.sums.length)
+            : never;
+    const float by_kink = std::max(
+        cost_by_kink(border, a, b),
+        std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
     return std::min(by_surface, by_kink);
   }
   /// By the kink between them.
@@ -518,22 +522,25 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
                                   static_cast<double>(options.angle * radians)});
   if (options.grow) {
     for (int round = 0; round < options.grow; ++round) {
-    const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
-    if (round + 1 < options.grow) {
-      std::vector<Samples> by_surface;
-      for (std::uint32_t k = 0; k < grains.size(); ++k) if (grown[k] != no_id) {
-        if (grown[k] >= by_surface.size()) by_surface.resize(grown[k] + 1);
-        by_surface[grown[k]].push_back(grains.samples[k]);
+      const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
+      if (round + 1 < options.grow) {
+        std::vector<Samples> by_surface;
+        for (std::uint32_t k = 0; k < grains.size(); ++k)
+          if (grown[k] != no_id) {
+            if (grown[k] >= by_surface.size()) by_surface.resize(grown[k] + 1);
+            by_surface[grown[k]].push_back(grains.samples[k]);
+          }
+        const SurfaceNoise now = noise_of(
+            by_surface,
+            {static_cast<double>(options.distance), static_cast<double>(options.angle * radians)});
+        tree.noise = now;
+      } else {
+        areas = areas_by_surface(table, areas, grains, grown);
+        for (std::uint32_t k = 0; k < grains.size(); ++k) grains.area[k] = no_id;
+        for (FaceId f = 0; f < table.size(); ++f)
+          if (grains.of_face[f] != no_id) grains.area[grains.of_face[f]] = areas.of_face[f];
+        samples = samples_by_area(grains, areas.count);
       }
-      const SurfaceNoise now = noise_of(by_surface, {static_cast<double>(options.distance),
-                                  static_cast<double>(options.angle * radians)});
-      tree.noise = now;
-    } else {
-      areas = areas_by_surface(table, areas, grains, grown);
-      for (std::uint32_t k = 0; k < grains.size(); ++k) grains.area[k] = no_id;
-      for (FaceId f = 0; f < table.size(); ++f) if (grains.of_face[f] != no_id) grains.area[grains.of_face[f]] = areas.of_face[f];
-      samples = samples_by_area(grains, areas.count);
-    }
     }
   }
   AreaJoining joining(mesh, table, lines, areas, tree.banded, options, tree.noise, kinks->noise,
@@ -545,6 +552,63 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   if (context.cancelled()) return cancelled();
   tree.smallest = std::move(areas.of_face);
   return tree;
+}
+
+std::size_t AreaTree::bytes() const {
+  return sizeof *this + table.faces.size() * sizeof(FaceTable::Face) +
+         table.neighbours.size() * sizeof(table.neighbours[0]) +
+         table.sides.size() * sizeof(table.sides[0]) +
+         table.points.size() * sizeof(table.points[0]) + edge_length.size() * sizeof(float) +
+         banded.size() + smallest.size() * sizeof(std::uint32_t) +
+         surfaces.size() * sizeof(FittedSurface) + joins.size() * sizeof(Join);
+}
+
+FoundPartitions partitions_of(const Mesh& mesh, const AreaTree& tree, float height,
+                              std::uint32_t least, Criterion criterion,
+                              const std::vector<double>& values, const std::vector<bool>& taken) {
+  Areas areas = tree.cut(height, least);
+  FoundPartitions found;
+  found.labels.assign(mesh.face_count(), 0);
+  // What others took may part an area: each piece of it is one.
+  struct Range {
+    double sum = 0.0, least = 0.0, most = 0.0;
+    std::size_t count = 0;
+  };
+  std::vector<FaceId> front;
+  for (FaceId first = 0; first < mesh.face_count(); ++first) {
+    if (found.labels[first] != 0 || (!taken.empty() && taken[first])) continue;
+    Partition partition;
+    partition.anchor = mesh.triangle(first);
+    partition.criterion = criterion;
+    found.partitions.push_back(partition);
+    const auto label = static_cast<std::uint32_t>(found.partitions.size());
+    found.labels[first] = label;
+    front.assign(1, first);
+    for (std::size_t i = 0; i < front.size(); ++i)
+      for (const FaceId g : tree.table.neighbours[front[i]])
+        if (g != no_id && found.labels[g] == 0 && areas.of_face[g] == areas.of_face[first] &&
+            (taken.empty() || !taken[g])) {
+          found.labels[g] = label;
+          front.push_back(g);
+        }
+    Partition& made = found.partitions.back();
+    made.faces = static_cast<std::uint32_t>(front.size());
+    Range range;
+    for (const FaceId f : front) {
+      made.area += face_area(mesh, f);
+      if (tree.banded[f]) continue;
+      for (const VertexId v : mesh.triangle(f)) {
+        if (mesh.is_border(v) || std::isnan(values[v])) continue;
+        range.least = range.count == 0 ? values[v] : std::min(range.least, values[v]);
+        range.most = range.count == 0 ? values[v] : std::max(range.most, values[v]);
+        range.sum += values[v];
+        ++range.count;
+      }
+    }
+    if (range.count > 0) made.mean_value = range.sum / static_cast<double>(range.count);
+    made.interval = {range.least, range.most};
+  }
+  return found;
 }
 
 }  // namespace arris

@@ -9,6 +9,7 @@
 #include "core/partitions/area_borders.h"
 #include "core/partitions/border_kink.h"
 #include "core/partitions/curvature_kinks.h"
+#include "core/partitions/partitions.h"
 #include "core/partitions/surface_fit.h"
 #include "core/partitions/surface_growing.h"
 #include "core/sharp_lines/face_table.h"
@@ -19,34 +20,34 @@ namespace arris {
 
 /// Lengths in mean edges, angles in degrees, areas in equilateral faces of the mean edge.
 struct AreaTreeOptions {
-  float band = 1.5F;  // faces nearer than this to a line are rounded by it: they do not vote
+  float band = 1.5F;         // faces nearer than this to a line are rounded by it: they do not vote
   float narrow_band = 0.8F;  // and nearer than this in strips too narrow for that,
   int narrow_rings = 3;      // told by steps over sides from faces that vote
   CurvatureKinkOptions kinks;
   WatershedOptions watershed{0.5F, 6.0F};  // of the kinks
-  float first_cut = 1.8F;                   // borders weaker than this by their kinks go unfitted
-  float first_quantile = 0.4F;              // of a border's kinks along it: what it counts for
-  float first_area = 40.0F;                 // below it an area joins the more easily
+  float first_cut = 1.8F;                  // borders weaker than this by their kinks go unfitted
+  float first_quantile = 0.4F;             // of a border's kinks along it: what it counts for
+  float first_area = 40.0F;                // below it an area joins the more easily
   int grow = 2;
   SurfaceGrowingOptions growing;
-  int grain = 8;                            // faces that make one sample of an area
-  std::size_t samples = 256;                // of an area, at most
-  float rise = 10.0F;          // of the misfits, summed up, by a join to one surface: this much,
-  float rise_each = 1.0F;      // and this for each sample of the smaller area
-  float rise_border = 0.6F;  // and for each edge of border between the two
+  int grain = 8;              // faces that make one sample of an area
+  std::size_t samples = 256;  // of an area, at most
+  float rise = 10.0F;         // of the misfits, summed up, by a join to one surface: this much,
+  float rise_each = 1.0F;     // and this for each sample of the smaller area
+  float rise_border = 0.6F;   // and for each edge of border between the two
   float free_border = 1.0F;
-  float rise_area = 50.0F;     // up to this many
-  float free = 2.5F;           // mean misfit at which an area is rather free than of a surface
-  float blend = 15.0F;        // least radius of a torus up to which it is more than a free area
-  float free_rise = 30.0F;     // of the misfits by a join over a kink, at most
-  float kink = 2.4F;           // degrees of kink at which areas are joined
-  float small = 25.0F;        // areas under this are joined the more easily
-  float line_share = 0.5F;    // of a border that is a line: from here on nothing is joined over it
-  int rounds = 5;             // up to the height 1, measured again after each
-  float distance = 0.01F;     // least noise of a sample along the normal
-  float angle = 0.3F;         // and across
-  double face_noise = 1.5;     // distance of a face over that of a sample
-  bool surfaces = true;       // joins by fitted surfaces
+  float rise_area = 50.0F;  // up to this many
+  float free = 2.5F;        // mean misfit at which an area is rather free than of a surface
+  float blend = 15.0F;      // least radius of a torus up to which it is more than a free area
+  float free_rise = 30.0F;  // of the misfits by a join over a kink, at most
+  float kink = 2.4F;        // degrees of kink at which areas are joined
+  float small = 25.0F;      // areas under this are joined the more easily
+  float line_share = 0.5F;  // of a border that is a line: from here on nothing is joined over it
+  int rounds = 5;           // up to the height 1, measured again after each
+  float distance = 0.01F;   // least noise of a sample along the normal
+  float angle = 0.3F;       // and across
+  double face_noise = 1.5;  // distance of a face over that of a sample
+  bool surfaces = true;     // joins by fitted surfaces
   BorderKinkOptions border;
   AreaBorderOptions settling;
 };
@@ -77,13 +78,23 @@ struct AreaTree {
   SurfaceNoise face_noise;  ///< Of a face.
   AreaTreeOptions options;
 
-  /// Joined up to `height`, with their borders settled, and no area under `least` faces unless lines
-  /// enclose it.
+  std::size_t bytes() const;
+  /// Joined up to `height`, with their borders settled, and no area under `least` faces unless
+  /// lines enclose it.
   Areas cut(float height, std::uint32_t least) const;
 };
 
 /// Errors: cancelled.
 Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
                                 const AreaTreeOptions& options, const Context& context);
+
+/// The areas of a tree as partitions: joined up to `height`, none under `least` faces unless lines
+/// enclose it. Each holds the values of the criterion that its regular vertices have as its
+/// interval. `values`: the criterion per vertex. `taken`: faces that are not to be had, one flag
+/// each, or empty.
+FoundPartitions partitions_of(const Mesh& mesh, const AreaTree& tree, float height,
+                              std::uint32_t least, Criterion criterion,
+                              const std::vector<double>& values,
+                              const std::vector<bool>& taken = {});
 
 }  // namespace arris

@@ -72,7 +72,10 @@ std::vector<CurvatureInterval> default_intervals(const Mesh& mesh, const Curvatu
   return {{0.0, threshold}, {threshold, none}};
 }
 
-std::uint32_t default_min_faces(const Mesh& mesh) {
+std::uint32_t default_min_faces(const Mesh& mesh, PartitionMethod method) {
+  if (method == PartitionMethod::surfaces)
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(
+        mesh.face_count() / 500, 1, std::max<std::size_t>(12, mesh.face_count() / 5000)));
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(mesh.face_count() / 2000, 1, 50));
 }
 

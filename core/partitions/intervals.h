@@ -15,8 +15,8 @@ namespace arris {
 std::vector<CurvatureInterval> default_intervals(const Mesh& mesh, const Curvatures& curvatures,
                                                  Criterion criterion, const SharpLines& lines);
 
-/// Faces below which a partition on this part is rather noise than an area.
-std::uint32_t default_min_faces(const Mesh& mesh);
+/// Faces below which a partition on this part, found by this method, is rather noise than an area.
+std::uint32_t default_min_faces(const Mesh& mesh, PartitionMethod method);
 
 /// Faces below which an unassigned area on this part is rather a speck of noise than an area.
 std::uint32_t default_fill_holes(const Mesh& mesh);

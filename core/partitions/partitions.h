@@ -23,6 +23,12 @@ std::string_view name_of(Criterion criterion);  ///< "kabs" or "ikabs", as in op
 /// The values the criterion reads, per vertex.
 const std::vector<double>& values_of(const Curvatures& curvatures, Criterion criterion);
 
+/// How partitions are found.
+enum class PartitionMethod : std::uint8_t {
+  surfaces,  ///< Areas that one surface explains (core/partitions/area_tree.h). Our addition.
+  fronts,    ///< The paper's: fronts under intervals of curvature (section 7.1).
+};
+
 /// [Kmin, Kmax], both ends included; 1/mm^2 for Kabs, without unit for IKabs.
 struct CurvatureInterval {
   double min = 0.0;

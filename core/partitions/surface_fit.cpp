@@ -385,8 +385,8 @@ class Fitting {
     const Eigen::Vector2d direction = solver.eigenvectors().col(strong);
     Surface surface;
     surface.type = SurfaceType::torus;
-    surface.axis = ((x + fu * field.axis) * direction[0] + (y + fv * field.axis) * direction[1])
-                       .normalized();
+    surface.axis =
+        ((x + fu * field.axis) * direction[0] + (y + fv * field.axis) * direction[1]).normalized();
     surface.point = p - n / weakest;
     surface.radius = std::abs(1.0 / strongest - 1.0 / weakest);
     surface.tube = 1.0 / std::abs(strongest);

@@ -155,7 +155,8 @@ TEST_F(Operations, DefaultsAreComplete) {
                    "max_angle", "convexity", "corrections", "version"}));
   EXPECT_EQ(names({"smooth_curvature", json::object()}), (Names{"passes", "version"}));
   EXPECT_EQ(names({"find_partitions", json::object()}),
-            (Names{"criterion", "intervals", "min_faces", "fill_holes", "corrections", "version"}));
+            (Names{"method", "detail", "criterion", "intervals", "min_faces", "fill_holes",
+                   "corrections", "version"}));
 }
 
 TEST_F(Operations, LeaveTheDocumentTheyStartFromAlone) {

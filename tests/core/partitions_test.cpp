@@ -818,7 +818,8 @@ TEST(DefaultIntervals, AreProperOnAnyPartAndCriterion) {
     for (const Criterion criterion : {Criterion::kabs, Criterion::ikabs}) {
       const Part part(random_terrain(15, seed), 40.0);
       expect_sane(default_intervals(*part.mesh, *part.curvatures, criterion, part.lines));
-      EXPECT_GE(default_min_faces(*part.mesh), 1u);
+      for (const PartitionMethod method : {PartitionMethod::surfaces, PartitionMethod::fronts})
+        EXPECT_GE(default_min_faces(*part.mesh, method), 1u);
     }
 }
 

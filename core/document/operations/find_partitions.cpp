@@ -15,6 +15,14 @@ constexpr const char* interval_form = "a list of intervals [min, max] with 0 <= 
 /// A missing upper end ("null") stands for no upper bound.
 Result<nlohmann::json> resolve_partitions(const Document& document, const nlohmann::json& given) {
   ParameterReader reader("find_partitions", given);
+  // Who names intervals means fronts.
+  const bool has_intervals =
+      given.contains("intervals") && given["intervals"].is_array() && !given["intervals"].empty();
+  const PartitionMethod method = reader.choice("method", has_intervals ? "fronts" : "surfaces",
+                                               {"surfaces", "fronts"}) == "surfaces"
+                                     ? PartitionMethod::surfaces
+                                     : PartitionMethod::fronts;
+  reader.real("detail", 1.0, 0.05, 20.0);
   const Criterion criterion = reader.choice("criterion", "kabs", {"kabs", "ikabs"}) == "kabs"
                                   ? Criterion::kabs
                                   : Criterion::ikabs;
@@ -38,7 +46,7 @@ Result<nlohmann::json> resolve_partitions(const Document& document, const nlohma
     if (!good) reader.fault("intervals", interval_form);
     reader.set("intervals", intervals);
   }
-  reader.whole("min_faces", default_min_faces(*document.mesh), 1,
+  reader.whole("min_faces", default_min_faces(*document.mesh, method), 1,
                std::numeric_limits<std::int32_t>::max());
   reader.whole("fill_holes", default_fill_holes(*document.mesh), 0,
                std::numeric_limits<std::int32_t>::max());
@@ -56,7 +64,15 @@ Result<Document> apply_partitions(const Document& document, const nlohmann::json
   return result;
 }
 
+/// Version 1 knew fronts only.
+nlohmann::json upgrade_partitions(int, nlohmann::json parameters) {
+  parameters["method"] = "fronts";
+  return parameters;
+}
+
 std::string gist_partitions(const nlohmann::json& parameters) {
+  if (parameters.value("method", "fronts") == "surfaces")
+    return "detail " + number_text(parameters.value("detail", 1.0), 3);
   std::string text = parameters.value("criterion", "kabs") == "kabs" ? "Kabs" : "IKabs";
   if (!parameters.contains("intervals")) return text;
   for (const auto& interval : parameters["intervals"]) {
@@ -69,6 +85,7 @@ std::string gist_partitions(const nlohmann::json& parameters) {
 }  // namespace
 
 const OperationKind find_partitions_operation{
-    "find_partitions", "Find partitions", 1, resolve_partitions, apply_partitions, gist_partitions};
+    "find_partitions", "Find partitions", 2, resolve_partitions, apply_partitions,
+    gist_partitions,   upgrade_partitions};
 
 }  // namespace arris

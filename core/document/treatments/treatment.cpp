@@ -1,4 +1,5 @@
 #include "core/document/treatments/treatment.h"
+#include "core/partitions/area_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -194,7 +195,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
   const Mesh& mesh = *document.mesh;
   PartitionOptions options;
   options.bare_areas = true;
-  bool switched_on = true;
+  bool switched_on = true, by_surfaces = false;
   if (parameters) {
     options.criterion = parameters->at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
     options.min_faces = parameters->at("min_faces");
@@ -202,6 +203,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
     for (const auto& interval : parameters->at("intervals"))
       options.intervals.push_back(interval_of(interval));
     switched_on = parameters->at("corrections");
+    by_surfaces = parameters->at("method") == "surfaces";
   }
   const std::vector<double>& values = values_of(*document.shown_curvatures(), options.criterion);
   std::vector<Partition> locked;
@@ -212,8 +214,18 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
       locked.push_back(*partition);
       for (const FaceId f : faces_of(mesh, document.partitions, *partition)) taken[f] = true;
     }
-  Result<FoundPartitions> found =
-      propagate_fronts(mesh, values, document.lines, options, context, taken);
+  Result<FoundPartitions> found;
+  if (by_surfaces) {
+    if (!document.areas || document.areas->mesh() != document.mesh)
+      document.areas = std::make_shared<const SharedAreaTree>(document.mesh);
+    const Result<AreaTreePtr> tree = document.areas->get(document.lines, context.part(0.0, 0.9));
+    if (!tree) return tl::unexpected<Error>(tree.error());
+    const double detail = parameters->at("detail");
+    found = partitions_of(mesh, **tree, static_cast<float>(1.0 / detail), options.min_faces,
+                          options.criterion, values, taken);
+  } else {
+    found = propagate_fronts(mesh, values, document.lines, options, context, taken);
+  }
   if (!found) return tl::unexpected<Error>(found.error());
   // Locked partitions stay as they are, numbered after the found ones.
   for (Partition& partition : locked) {

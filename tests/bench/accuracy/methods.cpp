@@ -125,16 +125,48 @@ Result<Found> area_partitions(const ScanPtr& scan) {
     found.lines.push_back(polyline(*document->mesh, line->vertices));
   AreaTreeOptions o;
 #define ENV(x) o.x = static_cast<decltype(o.x)>(env(#x, static_cast<double>(o.x)))
-  ENV(band); ENV(first_cut); ENV(first_area); ENV(grain); ENV(samples); ENV(rise); ENV(rise_area); ENV(rise_each); ENV(face_noise); o.settling.rounds = (int)env("srounds", 12); o.settling.length = env("slength", o.settling.length); o.settling.free = env("sfree", o.settling.free); o.settling.most = env("smost", o.settling.most); ENV(blend); ENV(narrow_band); ENV(narrow_rings); ENV(rise_border); ENV(free_border); ENV(free); ENV(free_rise);
-    ENV(kink); ENV(small); ENV(line_share); ENV(rounds);
-  ENV(distance); ENV(angle); ENV(surfaces); ENV(grow);
-  o.growing.good = env("ggood", o.growing.good); o.growing.admits = env("gadmits", o.growing.admits); o.growing.seed = (size_t)env("gseed", 16); o.growing.least = (size_t)env("gleast", 6);
+  ENV(band);
+  ENV(first_cut);
+  ENV(first_area);
+  ENV(grain);
+  ENV(samples);
+  ENV(rise);
+  ENV(rise_area);
+  ENV(rise_each);
+  ENV(face_noise);
+  o.settling.rounds = (int)env("srounds", 12);
+  o.settling.length = env("slength", o.settling.length);
+  o.settling.free = env("sfree", o.settling.free);
+  o.settling.most = env("smost", o.settling.most);
+  ENV(blend);
+  ENV(narrow_band);
+  ENV(narrow_rings);
+  ENV(rise_border);
+  ENV(free_border);
+  ENV(free);
+  ENV(free_rise);
+  ENV(kink);
+  ENV(small);
+  ENV(line_share);
+  ENV(rounds);
+  ENV(distance);
+  ENV(angle);
+  ENV(surfaces);
+  ENV(grow);
+  o.growing.good = env("ggood", o.growing.good);
+  o.growing.admits = env("gadmits", o.growing.admits);
+  o.growing.seed = (size_t)env("gseed", 16);
+  o.growing.least = (size_t)env("gleast", 6);
   o.watershed.depth = static_cast<float>(env("depth", 0.5));
   o.watershed.area = static_cast<float>(env("warea", 6));
   const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, o, {});
   if (!tree) return tl::unexpected<Error>(tree.error());
-  found.labels = tree->cut(static_cast<float>(env("cut", 1)), static_cast<std::uint32_t>(env("least", 12))).of_face;
-  if (std::getenv("verbose")) std::fprintf(stderr, "count %zu joins %zu noise %g deg %g\n", tree->surfaces.size(), tree->joins.size(), tree->noise.angle * 57.3, tree->noise.distance);
+  found.labels =
+      tree->cut(static_cast<float>(env("cut", 1)), static_cast<std::uint32_t>(env("least", 12)))
+          .of_face;
+  if (std::getenv("verbose"))
+    std::fprintf(stderr, "count %zu joins %zu noise %g deg %g\n", tree->surfaces.size(),
+                 tree->joins.size(), tree->noise.angle * 57.3, tree->noise.distance);
   for (std::uint32_t& label : found.labels) ++label;
   return found;
 }
@@ -229,9 +261,13 @@ std::vector<Method> method_table(bool with_ideas) {
       {"default", R"([{"operation": "find_sharp_lines"}, {"operation": "find_partitions"}])"},
       // Figure 2 of the paper, as segment --flow paper.
       {"paper", R"([{"operation": "simplify"}, {"operation": "find_sharp_lines", "method": "walk"},
-                    {"operation": "equilateralize"}, {"operation": "find_partitions"}])"},
+                    {"operation": "equilateralize"},
+                    {"operation": "find_partitions", "method": "fronts"}])"},
       {"walk", R"([{"operation": "find_sharp_lines", "method": "walk"},
-                   {"operation": "find_partitions"}])"},
+                   {"operation": "find_partitions", "method": "fronts"}])"},
+      // The paper's fronts between the lines of the default.
+      {"fronts", R"([{"operation": "find_sharp_lines"},
+                     {"operation": "find_partitions", "method": "fronts"}])"},
   };
   std::vector<Method> methods;
   for (const auto& [name, operations] : flows) {
