@@ -112,8 +112,7 @@ class Fitting {
   void try_out(Surface surface) {
     const double first = judge(surface);
     if (options_.steps == 0 || first > options_.near) return;
-    constexpr std::size_t most = 64;
-    const std::size_t stride = std::max<std::size_t>(1, samples_.size() / most);
+    const std::size_t stride = std::max<std::size_t>(1, samples_.size() / options_.refined);
     for (int step = 0; step < options_.steps; ++step)
       if (!improve(surface, stride)) return;
     judge(surface);

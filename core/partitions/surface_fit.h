@@ -62,6 +62,7 @@ struct SurfaceFitOptions {
   double price = 1.0;           // of a parameter of the surface, in misfit of one sample
   bool torus = true;            // whether tori are tried
   int steps = 3;                // of least squares after the first estimate
+  std::size_t refined = 64;     // samples that they read
   double near = 8.0;            // misfit of that from which on they are not worth it
   double least_tube = 0.3;      // of a torus, in the unit of the points
   double largest_radius = 1e4;  // beyond it is a plane, in the unit of the points

@@ -1,6 +1,7 @@
 #include "ui/panels/steps_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -14,6 +15,8 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSignalBlocker>
+#include <QSlider>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -173,6 +176,7 @@ class Field {
   }
 
   std::function<void()> edited;
+  std::function<void()> dragged, settled;  // of a slider, which is followed at once
 
  protected:
   virtual QVariant read() = 0;
@@ -409,6 +413,87 @@ class IntervalsField : public Field {
   std::vector<Row> rows_;
 };
 
+/// A logarithmic slider with the number beside it. The slider is followed at once; a typed number
+/// waits for Run, like those of other fields.
+class ScaleField : public Field {
+ public:
+  ScaleField(const StepParameter& parameter, QWidget* parent)
+      : Field(parameter),
+        frame_(new QWidget(parent)),
+        slider_(new QSlider(Qt::Horizontal, frame_)),
+        box_(number_box(parameter, frame_)) {
+    auto* line = new QHBoxLayout(frame_);
+    line->setContentsMargins(0, 0, 0, 0);
+    line->addWidget(slider_, 1);
+    line->addWidget(box_);
+    slider_->setRange(0, steps);
+    slider_->setPageStep(steps / 10);
+    slider_->setToolTip(with_range(parameter));
+    slider_->setAccessibleName(parameter.label);
+    slider_->setFocusPolicy(Qt::StrongFocus);
+    slider_->installEventFilter(&quiet_);
+    show();
+    QObject::connect(box_, &NumberBox::edited, box_, [this] {
+      place_slider(box_->value());
+      touch();
+    });
+    QObject::connect(slider_, &QSlider::valueChanged, frame_, [this](int step) {
+      box_->setValue(value_at(step));
+      touch();
+      if (slider_->isSliderDown()) {
+        if (dragged) dragged();
+      } else if (settled) {
+        settled();
+      }
+    });
+    QObject::connect(slider_, &QSlider::sliderReleased, frame_, [this] {
+      if (settled) settled();
+    });
+  }
+  QWidget* widget() const override { return frame_; }
+  bool wide() const override { return true; }
+
+ protected:
+  QVariant read() override {
+    box_->interpretText();
+    return box_->value();
+  }
+  void show() override {
+    if (slider_->isSliderDown()) return;
+    box_->setValue(shown(parameter_.value.toDouble()));
+    place_slider(parameter_.value.toDouble());
+  }
+
+ private:
+  static constexpr int steps = 400;
+  /// The wheel scrolls the panel unless the slider has the focus.
+  class QuietWheel : public QObject {
+   protected:
+    bool eventFilter(QObject* watched, QEvent* event) override {
+      if (event->type() != QEvent::Wheel || qobject_cast<QWidget*>(watched)->hasFocus())
+        return false;
+      event->ignore();
+      return true;
+    }
+  };
+
+  double value_at(int step) const {
+    const double share = static_cast<double>(step) / steps;
+    return round_significant(parameter_.least * std::pow(parameter_.most / parameter_.least, share),
+                             3);
+  }
+  void place_slider(double value) {
+    const QSignalBlocker blocker(slider_);
+    slider_->setValue(static_cast<int>(std::lround(steps * std::log(value / parameter_.least) /
+                                                   std::log(parameter_.most / parameter_.least))));
+  }
+
+  QuietWheel quiet_;
+  QWidget* frame_;
+  QSlider* slider_;
+  NumberBox* box_;
+};
+
 std::unique_ptr<Field> make_field(const StepParameter& parameter, QWidget* parent) {
   switch (parameter.kind) {
     case StepParameter::Kind::real:
@@ -419,6 +504,8 @@ std::unique_ptr<Field> make_field(const StepParameter& parameter, QWidget* paren
       return std::make_unique<ChoiceField>(parameter, parent);
     case StepParameter::Kind::intervals:
       return std::make_unique<IntervalsField>(parameter, parent);
+    case StepParameter::Kind::scale:
+      return std::make_unique<ScaleField>(parameter, parent);
   }
   return nullptr;
 }
@@ -444,7 +531,7 @@ class CardFrame : public QWidget {
   }
   const StepCard& card() const { return card_; }
 
-  std::function<void()> run;
+  std::function<void()> run, dragged, settled;
 
  protected:
   void paintEvent(QPaintEvent*) override;
@@ -529,6 +616,12 @@ void CardFrame::build_controls(QVBoxLayout* column) {
     field->edited = [this, chooses = parameter.kind == StepParameter::Kind::choice] {
       if (chooses) follow_choices();
       allow_run();
+    };
+    field->dragged = [this] {
+      if (dragged && !busy_) dragged();
+    };
+    field->settled = [this] {
+      if (settled && !busy_) settled();
     };
     const bool unit = field->wide() && !parameter.suffix.trimmed().isEmpty();
     auto* label =
@@ -697,6 +790,8 @@ class StepsPanel::Private {
     auto* frame = new CardFrame(card, content);
     frame->set_busy(busy);
     frame->run = [this, frame] { emit q->run_requested(frame->card().name, frame->values()); };
+    frame->dragged = [this, frame] { emit q->dragged(frame->card().name, frame->values()); };
+    frame->settled = [this, frame] { emit q->settled(frame->card().name, frame->values()); };
     return frame;
   }
 

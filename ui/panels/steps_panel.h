@@ -11,7 +11,8 @@ namespace arris::ui {
 
 /// A parameter of a step as the panel shows it.
 struct StepParameter {
-  enum class Kind { real, whole, choice, intervals };
+  /// scale: a real number on a logarithmic slider, from `least` to `most`.
+  enum class Kind { real, whole, choice, intervals, scale };
   QString key;    ///< As in the operation: "angle".
   QString label;  ///< "Angle TV_IH".
   QString tooltip;
@@ -60,6 +61,9 @@ class StepsPanel : public QWidget {
  signals:
   /// Run pressed: the step with the values in its editors (key to value).
   void run_requested(const QString& step, const QVariantMap& values);
+  /// A slider of the step is being dragged, or was let go: its values as they are now.
+  void dragged(const QString& step, const QVariantMap& values);
+  void settled(const QString& step, const QVariantMap& values);
   void run_out_of_date_requested();  ///< "Run again all that is out of date".
 
  private:

@@ -54,15 +54,20 @@ ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
 ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
   auto* table = new ElementTable(
       tr("partitions"),
-      {tr("Partition"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Radius mm"), tr("Interval")},
-      {tr("Id of the partition; it keeps it while thresholds move"), tr("Area of its faces"),
-       tr("Number of faces"), tr("Mean value of the criterion (Kabs or IKabs)"),
-       tr("The mean read as the radius of a cylinder (Kabs only)"),
-       tr("Curvature interval it was found under")},
+      {tr("Partition"), tr("Surface"), tr("Size"), tr("Deviation mm"), tr("Largest mm"),
+       tr("Within %"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Interval")},
+      {tr("Id of the partition; it keeps it while thresholds move"),
+       tr("The surface that explains it: plane, sphere, cylinder, cone, torus, or free: none of "
+          "them"),
+       tr("Radius or half angle of that surface; of a torus both radii"),
+       tr("Mean distance of its vertices from that surface"),
+       tr("Largest distance of its vertices from that surface"),
+       tr("Share of its vertices within three times the noise of the scan"),
+       tr("Area of its faces"), tr("Number of faces"),
+       tr("Mean value of the criterion (Kabs or IKabs)"),
+       tr("Values of the criterion inside it, or the interval it was found under")},
       parent);
-  table->set_empty_text(
-      tr("No partitions yet. Run the step “Partitions”, or drag Kmax on the "
-         "histogram of Kabs."));
+  table->set_empty_text(tr("No partitions yet. Run the step “Partitions”."));
   return table;
 }
 
@@ -82,7 +87,12 @@ ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
 
 ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables tables,
                                      QObject* parent)
-    : QObject(parent), session_(session), view_(view), tables_(tables), scan_work_(this) {
+    : QObject(parent),
+      session_(session),
+      view_(view),
+      tables_(tables),
+      surfaces_work_(this),
+      scan_work_(this) {
   connect(session_, &Session::changed, this, [this] { refresh(); });
   connect(view_, &MeshView::clicked, this, &ElementsPresenter::clicked);
   connect(view_, &MeshView::banded, this, &ElementsPresenter::banded);
@@ -128,7 +138,6 @@ void ElementsPresenter::refresh() {
   drop_gone(boundaries_,
             [&](std::uint32_t k) { return k >= 1 && k <= snapshot.boundaries.size(); });
 
-  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
   const std::vector<QColor> colours = colours_of_partitions(document);
   if (partitions_shown_)
     show_partitions_in(*view_, document, colours);
@@ -151,17 +160,8 @@ void ElementsPresenter::refresh() {
                       {}});
     }
     tables_.lines->set_rows(std::move(rows));
-    rows.clear();
-    for (std::size_t k = 0; k < partitions.size(); ++k) {
-      const Partition& p = *partitions[k];
-      const bool has_radius = p.criterion == Criterion::kabs && p.mean_value > 0.0;
-      rows.push_back({p.id,
-                      {p.id, shown(p.area), p.faces, shown(p.mean_value, 3),
-                       has_radius ? QVariant(shown(cylinder_radius(p.mean_value), 3)) : QVariant(),
-                       interval_text(p.interval)},
-                      colours[k]});
-    }
-    tables_.partitions->set_rows(std::move(rows));
+    fill_partitions_table();
+    fit_surfaces();
     rows.clear();
     for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
       const Boundary& b = *snapshot.boundaries[k];
@@ -175,6 +175,56 @@ void ElementsPresenter::refresh() {
     tables_.boundaries->set_rows(std::move(rows));
   }
   show_selection();
+}
+
+void ElementsPresenter::fill_partitions_table() {
+  const Document& document = session_->shown().document;
+  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
+  const std::vector<QColor> colours = colours_of_partitions(document);
+  std::vector<ElementRow> rows;
+  for (std::size_t k = 0; k < partitions.size(); ++k) {
+    const Partition& p = *partitions[k];
+    QString type, size;
+    QVariant mean, most, within;
+    if (const auto known = fitted_.find(&p); known != fitted_.end()) {
+      const PartitionSurface& fit = known->second.surface;
+      const std::string_view name = name_of(fit.surface.type);
+      type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+      size = QString::fromStdString(size_text(fit.surface));
+      if (fit.surface.type != SurfaceType::free) {
+        mean = shown(fit.mean_deviation, 3);
+        most = shown(fit.max_deviation, 3);
+        within = shown(100.0 * fit.within, 3);
+      }
+    }
+    rows.push_back({p.id,
+                    {p.id, type, size, mean, most, within, shown(p.area), p.faces,
+                     shown(p.mean_value, 3), interval_text(p.interval)},
+                    colours[k]});
+  }
+  tables_.partitions->set_rows(std::move(rows));
+}
+
+void ElementsPresenter::fit_surfaces() {
+  surfaces_work_.cancel();
+  const Document& document = session_->shown().document;
+  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
+  std::unordered_map<const Partition*, Fitted> kept;
+  for (const PartitionPtr& p : partitions)
+    if (const auto known = fitted_.find(p.get()); known != fitted_.end()) kept.insert(*known);
+  fitted_ = std::move(kept);
+  if (fitted_.size() == partitions.size()) return;
+  surfaces_work_.start(
+      [document](const Context& context) {
+        return fit_partition_surfaces(*document.mesh, document.lines, document.partitions, context);
+      },
+      [this, partitions](const Result<std::vector<PartitionSurface>>& found) {
+        if (!found) return;
+        for (std::size_t k = 0; k < partitions.size(); ++k)
+          fitted_.insert_or_assign(partitions[k].get(), Fitted{partitions[k], (*found)[k]});
+        if (!session_->is_previewing()) fill_partitions_table();
+        show_selection();
+      });
 }
 
 void ElementsPresenter::show_selection() {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <QObject>
 
+#include "core/partitions/partition_surfaces.h"
 #include "ui/panels/element_table.h"
 #include "ui/view/mesh_view.h"
 #include "ui/window/latest_work.h"
@@ -70,6 +72,8 @@ class ElementsPresenter : public QObject {
   void banded(const std::vector<std::uint32_t>& line_ids, bool toggle);
   void show_visibility();
   void clear_sets();
+  void fill_partitions_table();
+  void fit_surfaces();
 
   Session* session_;
   MeshView* view_;
@@ -77,7 +81,13 @@ class ElementsPresenter : public QObject {
   bool partitions_shown_ = false;
   Ids lines_, partitions_, boundaries_;  // selected
   Ids hidden_, isolated_;                // partitions; none isolated: all are shown
-  LatestWork scan_work_;                 // which faces of the scan they are
+  struct Fitted {
+    PartitionPtr partition;  // kept, so that no other takes its place in memory
+    PartitionSurface surface;
+  };
+  std::unordered_map<const Partition*, Fitted> fitted_;
+  LatestWork surfaces_work_;  // which surfaces partitions are of
+  LatestWork scan_work_;      // which faces of the scan they are
 };
 
 }  // namespace arris::ui

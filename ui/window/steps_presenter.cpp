@@ -8,6 +8,7 @@
 #include "core/document/flow.h"
 #include "core/document/treatments/treatment.h"
 #include "core/mesh/face_quality.h"
+#include "core/partitions/intervals.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "ui/panels/controls.h"
 
@@ -130,6 +131,14 @@ StepsPresenter::StepsPresenter(Session* session, StepsPanel* panel, QObject* par
   connect(panel_, &StepsPanel::run_requested, this,
           [this](const QString& step, const QVariantMap& values) {
             session_->run({operation_from(step, values)});
+          });
+  connect(panel_, &StepsPanel::dragged, this,
+          [this](const QString& step, const QVariantMap& values) {
+            if (!session_->busy()) session_->preview(operation_from(step, values));
+          });
+  connect(panel_, &StepsPanel::settled, this,
+          [this](const QString& step, const QVariantMap& values) {
+            session_->commit_preview(operation_from(step, values));
           });
   connect(panel_, &StepsPanel::run_out_of_date_requested, this, &StepsPresenter::run_out_of_date);
   refresh();
@@ -282,6 +291,83 @@ StepCard StepsPresenter::lines_card() {
   return lines;
 }
 
+StepCard StepsPresenter::partitions_card() {
+  const Document& document = session_->shown().document;
+  StepCard partitions;
+  partitions.name = "find_partitions";
+  partitions.title = tr("Partitions");
+  partitions.tooltip =
+      tr("Splits the part into areas that one surface explains, or into areas of slowly varying "
+         "curvature by the paper's fronts (section 7).");
+  if (document.empty()) return partitions;
+  const nlohmann::json q = session_->parameters("find_partitions");
+  const bool by_fronts = q.value("method", "surfaces") == "fronts";
+  partitions.state = state_of(document.find_partitions);
+  partitions.time = seconds_text(session_->seconds_of("find_partitions"));
+  const auto only = [](StepParameter parameter, const char* method) {
+    parameter.hangs_on = "method";
+    parameter.value_of = {{method, parameter.value}};
+    return parameter;
+  };
+  StepParameter detail = real(
+      "detail", tr("Detail"),
+      tr("From few large partitions to many small ones; 1 is what the noise of the scan allows "
+         "to tell apart. The partitions follow the slider."),
+      q.value("detail", 1.0), 0.05, 20.0, 3, "");
+  detail.kind = StepParameter::Kind::scale;
+  StepParameter intervals;
+  intervals.key = "intervals";
+  intervals.label = tr("Intervals");
+  intervals.tooltip =
+      tr("Curvature intervals Kmin – Kmax, run one after the other over what is "
+         "left.");
+  intervals.kind = StepParameter::Kind::intervals;
+  QVariantList list;
+  for (const auto& interval : q.value("intervals", nlohmann::json::array()))
+    list << QVariant(QVariantList{interval[0].get<double>(),
+                                  interval[1].is_null() ? qInf() : interval[1].get<double>()});
+  intervals.value = list;
+  intervals.least = 0.0;
+  intervals.most = 1e12;
+  intervals.decimals = std::clamp(5 + 2 * magnitude_of(*document.mesh), 3, 15);
+  StepParameter least =
+      whole("min_faces", tr("Least faces"),
+            tr("Smaller partitions are not kept; those of surfaces join the one beside them."), 0,
+            1, 999999);
+  least.hangs_on = "method";
+  const int own = q.value("min_faces", 1);
+  const auto default_of = [&](PartitionMethod method) {
+    return static_cast<int>(default_min_faces(*document.mesh, method));
+  };
+  least.value_of = {{"surfaces", by_fronts ? default_of(PartitionMethod::surfaces) : own},
+                    {"fronts", by_fronts ? own : default_of(PartitionMethod::fronts)}};
+  partitions.parameters = {
+      choice(
+          "method", tr("Method"),
+          tr("Surfaces: areas that one plane, sphere, cylinder, cone, torus or free-form surface "
+             "explains within the noise. Fronts: the paper's, under intervals of curvature."),
+          by_fronts ? "fronts" : "surfaces", {"surfaces", "fronts"},
+          {tr("Fitted surfaces"), tr("Fronts of curvature (paper)")}),
+      only(detail, "surfaces"),
+      only(choice("criterion", tr("Criterion"),
+                  tr("Kabs on dense meshes, its invariant IKabs on sparse ones."),
+                  q.value("criterion", "kabs"), {"kabs", "ikabs"}, {"Kabs", "IKabs"}),
+           "fronts"),
+      only(intervals, "fronts"),
+      least,
+      only(whole("fill_holes", tr("Fill under"),
+                 tr("Unassigned areas with fewer faces join the partition around them; 0 fills "
+                    "none."),
+                 q.value("fill_holes", 0), 0, 999999),
+           "fronts")};
+  if (document.find_partitions)
+    partitions.result =
+        counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) + ", " +
+        tr("%1 % of the area")
+            .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)));
+  return partitions;
+}
+
 QString StepsPresenter::swaps_text(const MeshPtr& before, const MeshPtr& after) {
   for (const Swaps& known : swaps_)
     if (known.before == before && known.after == after) return known.text;
@@ -329,12 +415,7 @@ void StepsPresenter::refresh() {
   smoothing.name = "smooth_curvature";
   smoothing.title = tr("Curvature smoothing");
   smoothing.tooltip = tr("Averages curvature over neighbours, never across a line (section 4.4).");
-  StepCard partitions;
-  partitions.name = "find_partitions";
-  partitions.title = tr("Partitions");
-  partitions.tooltip = tr("Splits the part into areas of slowly varying curvature (section 7).");
   if (!document.empty()) {
-    const int magnitude = magnitude_of(*document.mesh);
     const double longest = longest_of(*document.mesh);
     const int length_decimals = length_decimals_of(*document.mesh);
     const nlohmann::json z = session_->parameters("simplify");
@@ -374,48 +455,13 @@ void StepsPresenter::refresh() {
     if (document.smooth_curvature)
       smoothing.result =
           counted(static_cast<std::size_t>(s.value("passes", 0)), tr("pass"), tr("passes"));
-
-    const nlohmann::json q = session_->parameters("find_partitions");
-    partitions.state = state_of(document.find_partitions);
-    partitions.time = seconds_text(session_->seconds_of("find_partitions"));
-    const StepParameter criterion =
-        choice("criterion", tr("Criterion"),
-               tr("Kabs on dense meshes, its invariant IKabs on sparse ones."),
-               q.value("criterion", "kabs"), {"kabs", "ikabs"}, {"Kabs", "IKabs"});
-    StepParameter intervals;
-    intervals.key = "intervals";
-    intervals.label = tr("Intervals");
-    intervals.tooltip =
-        tr("Curvature intervals Kmin – Kmax, run one after the other over what is "
-           "left.");
-    intervals.kind = StepParameter::Kind::intervals;
-    QVariantList list;
-    for (const auto& interval : q.value("intervals", nlohmann::json::array()))
-      list << QVariant(QVariantList{interval[0].get<double>(),
-                                    interval[1].is_null() ? qInf() : interval[1].get<double>()});
-    intervals.value = list;
-    intervals.least = 0.0;
-    intervals.most = 1e12;
-    intervals.decimals = std::clamp(5 + 2 * magnitude, 3, 15);
-    partitions.parameters = {
-        criterion, intervals,
-        whole("min_faces", tr("Least faces"), tr("Partitions with fewer faces are not kept."),
-              q.value("min_faces", 1), 1, 999999),
-        whole("fill_holes", tr("Fill under"),
-              tr("Unassigned areas with fewer faces join the partition around them; 0 fills none."),
-              q.value("fill_holes", 0), 0, 999999)};
-    if (document.find_partitions)
-      partitions.result =
-          counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) + ", " +
-          tr("%1 % of the area")
-              .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)));
   }
   cards.push_back(simplify);
   cards.push_back(swap);
   cards.push_back(lines_card());
   cards.push_back(equilateral);
   cards.push_back(smoothing);
-  cards.push_back(partitions);
+  cards.push_back(partitions_card());
   panel_->set_cards(cards);
 }
 

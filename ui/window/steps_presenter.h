@@ -30,6 +30,7 @@ class StepsPresenter : public QObject {
   void refresh();
   const nlohmann::json& line_defaults(const char* method);
   StepCard lines_card();
+  StepCard partitions_card();
   QString swaps_text(const MeshPtr& before, const MeshPtr& after);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
 

@@ -64,6 +64,8 @@ Operation ThresholdPresenter::operation_for(const Target& target, double value) 
     parameters["angle"] = std::clamp(rounded(angle, 4), least_angle, most_angle);
     return {"find_sharp_lines", parameters};
   }
+  // Intervals are those of fronts.
+  parameters["method"] = "fronts";
   // Every end at this bound moves; an interval that would vanish is pushed along.
   nlohmann::json intervals = nlohmann::json::array();
   for (nlohmann::json interval : parameters["intervals"]) {
@@ -111,7 +113,10 @@ void ThresholdPresenter::refresh() {
   nlohmann::json partitions;
   if (field == Field::kabs || field == Field::ikabs) {
     partitions = session_->parameters("find_partitions");
-    if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs")) partitions = {};
+    const Document& document = session_->shown().document;
+    if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs") ||
+        (document.find_partitions && document.partition_method() == PartitionMethod::surfaces))
+      partitions = {};
   }
   if (partitions.contains("intervals")) {
     std::set<double> lower, upper;
