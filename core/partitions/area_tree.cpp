@@ -169,49 +169,101 @@ std::vector<Samples> samples_by_area(const Grains& grains, std::uint32_t count) 
   return result;
 }
 
-/// Areas parted further by the surfaces of their grains, and joined where one surface explains
-/// several. Faces that do not vote stay with what is nearest.
+/// Connected faces of one label, numbered from 0; faces without one (no_id) go to what is nearest.
+FaceRegions connected(const FaceTable& table, const std::vector<std::uint32_t>& label) {
+  FaceRegions result{std::vector<std::uint32_t>(table.size(), no_id), 0};
+  std::vector<FaceId> front;
+  const auto flood = [&](const auto& admits) {
+    for (std::size_t i = 0; i < front.size(); ++i)
+      for (const FaceId g : table.neighbours[front[i]])
+        if (g != no_id && result.of_face[g] == no_id && admits(front[i], g)) {
+          result.of_face[g] = result.of_face[front[i]];
+          front.push_back(g);
+        }
+  };
+  for (FaceId first = 0; first < table.size(); ++first) {
+    if (label[first] == no_id || result.of_face[first] != no_id) continue;
+    result.of_face[first] = result.count++;
+    front.assign(1, first);
+    flood([&](FaceId f, FaceId g) { return label[f] == label[g]; });
+  }
+  front.clear();
+  for (FaceId f = 0; f < table.size(); ++f)
+    if (result.of_face[f] != no_id) front.push_back(f);
+  const auto any = [](FaceId, FaceId) { return true; };
+  flood(any);
+  for (FaceId first = 0; first < table.size(); ++first) {
+    if (result.of_face[first] != no_id) continue;
+    result.of_face[first] = result.count++;
+    front.assign(1, first);
+    flood(any);
+  }
+  return result;
+}
+
+/// Areas by the surfaces of their grains; where a grain has none, by the old areas.
 FaceRegions areas_by_surface(const FaceTable& table, const FaceRegions& areas, const Grains& grains,
                              const std::vector<std::uint32_t>& surface) {
   std::uint32_t surfaces = 0;
   for (const std::uint32_t s : surface)
     if (s != no_id) surfaces = std::max(surfaces, s + 1);
-  // Labels: surfaces first, then old areas; connected pieces of these.
   std::vector<std::uint32_t> label(table.size(), no_id);
   for (FaceId f = 0; f < table.size(); ++f)
     if (const std::uint32_t k = grains.of_face[f]; k != no_id)
       label[f] = surface[k] != no_id ? surface[k] : surfaces + areas.of_face[f];
-  FaceRegions result{std::vector<std::uint32_t>(table.size(), no_id), 0};
-  std::vector<FaceId> front;
-  for (FaceId first = 0; first < table.size(); ++first) {
-    if (label[first] == no_id || result.of_face[first] != no_id) continue;
-    result.of_face[first] = result.count;
-    front.assign(1, first);
-    for (std::size_t i = 0; i < front.size(); ++i)
-      for (const FaceId g : table.neighbours[front[i]])
-        if (g != no_id && result.of_face[g] == no_id && label[g] == label[first]) {
-          result.of_face[g] = result.count;
-          front.push_back(g);
-        }
-    ++result.count;
-  }
-  front.clear();
+  return connected(table, label);
+}
+
+/// The pieces that old areas cut new ones into.
+FaceRegions pieces_of(const FaceTable& table, const FaceRegions& areas, const FaceRegions& old) {
+  std::vector<std::uint64_t> pairs(table.size());
   for (FaceId f = 0; f < table.size(); ++f)
-    if (result.of_face[f] != no_id) front.push_back(f);
-  for (FaceId next = 0;; ++next) {
-    for (std::size_t i = 0; i < front.size(); ++i)
-      for (const FaceId g : table.neighbours[front[i]])
-        if (g != no_id && result.of_face[g] == no_id) {
-          result.of_face[g] = result.of_face[front[i]];
-          front.push_back(g);
-        }
-    front.clear();
-    while (next < table.size() && result.of_face[next] != no_id) ++next;
-    if (next == table.size()) break;
-    result.of_face[next] = result.count++;
-    front.assign(1, next);
+    pairs[f] = static_cast<std::uint64_t>(areas.of_face[f]) << 32 | old.of_face[f];
+  std::vector<std::uint64_t> known(pairs);
+  tbb::parallel_sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  std::vector<std::uint32_t> label(table.size());
+  parallel_for(label.size(), [&](std::size_t f) {
+    label[f] = static_cast<std::uint32_t>(std::lower_bound(known.begin(), known.end(), pairs[f]) -
+                                          known.begin());
+  });
+  return connected(table, label);
+}
+
+/// Joins the pieces of each area again, those with the least kink between them first, up to the
+/// height `most`.
+std::vector<AreaTree::Join> join_pieces(const FaceTable& table, const FaceRegions& pieces,
+                                        const FaceRegions& areas, const CurvatureKinks& kinks,
+                                        const std::vector<float>& edge_length,
+                                        const std::vector<FittedSurface>& surfaces, float most) {
+  std::vector<float> area(pieces.count, 0.0F);
+  std::vector<std::uint32_t> of_piece(pieces.count);
+  for (FaceId f = 0; f < table.size(); ++f) {
+    area[pieces.of_face[f]] += table.faces[f].area;
+    of_piece[pieces.of_face[f]] = areas.of_face[f];
   }
-  return result;
+  RegionJoining<HeightHistogram> joining(std::move(area));
+  for (FaceId f = 0; f < table.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const FaceId g = table.neighbours[f][k]; g != no_id && f < g &&
+                                                   pieces.of_face[f] != pieces.of_face[g] &&
+                                                   areas.of_face[f] == areas.of_face[g])
+        joining.border(pieces.of_face[f], pieces.of_face[g])
+            .add(finer * kinks.at_edge[table.sides[f][k]], edge_length[table.sides[f][k]]);
+  std::vector<AreaTree::Join> joins;
+  joining.run(
+      never,
+      [](const HeightHistogram& heights, std::uint32_t, std::uint32_t) {
+        return heights.quantile(0.5F) / finer;
+      },
+      [&](const auto& join, const HeightHistogram&) {
+        joins.push_back({join.into, join.gone, join.height, surfaces[of_piece[join.into]]});
+      });
+  std::stable_sort(joins.begin(), joins.end(),
+                   [](const auto& a, const auto& b) { return a.height < b.height; });
+  // From degrees to heights below those of joins between areas.
+  for (AreaTree::Join& join : joins) join.height = most * join.height / (1.0F + join.height);
+  return joins;
 }
 
 /// How samples scatter about the surfaces of the areas they are of, from those that have enough:
@@ -517,40 +569,60 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   FaceRegions areas = smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options);
   if (context.cancelled()) return cancelled();
   Grains grains = make_grains(table, areas, tree.banded, options.grain);
-  std::vector<Samples> samples = samples_by_area(grains, areas.count);
-  tree.noise = noise_of(samples, {static_cast<double>(options.distance),
-                                  static_cast<double>(options.angle * radians)});
-  if (options.grow) {
-    for (int round = 0; round < options.grow; ++round) {
-      const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
-      if (round + 1 < options.grow) {
-        std::vector<Samples> by_surface;
-        for (std::uint32_t k = 0; k < grains.size(); ++k)
-          if (grown[k] != no_id) {
-            if (grown[k] >= by_surface.size()) by_surface.resize(grown[k] + 1);
-            by_surface[grown[k]].push_back(grains.samples[k]);
-          }
-        const SurfaceNoise now = noise_of(
-            by_surface,
-            {static_cast<double>(options.distance), static_cast<double>(options.angle * radians)});
-        tree.noise = now;
-      } else {
-        areas = areas_by_surface(table, areas, grains, grown);
-        for (std::uint32_t k = 0; k < grains.size(); ++k) grains.area[k] = no_id;
-        for (FaceId f = 0; f < table.size(); ++f)
-          if (grains.of_face[f] != no_id) grains.area[grains.of_face[f]] = areas.of_face[f];
-        samples = samples_by_area(grains, areas.count);
+  const SurfaceNoise least_noise{static_cast<double>(options.distance),
+                                 static_cast<double>(options.angle * radians)};
+  tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
+  const FaceRegions old = areas;
+  for (int round = 1;; ++round) {
+    const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
+    if (context.cancelled()) return cancelled();
+    // Over whole surfaces a scan is farther off than over a few edges: with the noise that they
+    // show they grow again, until it stays.
+    std::vector<Samples> by_surface;
+    for (std::uint32_t k = 0; k < grains.size(); ++k)
+      if (grown[k] != no_id) {
+        if (grown[k] >= by_surface.size()) by_surface.resize(grown[k] + 1);
+        by_surface[grown[k]].push_back(grains.samples[k]);
       }
+    const SurfaceNoise now = noise_of(by_surface, least_noise);
+    const auto stays = [&](double before, double after) {
+      return std::abs(after - before) <= options.settled * before;
+    };
+    if (round < options.growths &&
+        !(stays(tree.noise.distance, now.distance) && stays(tree.noise.angle, now.angle))) {
+      tree.noise = now;
+      continue;
     }
+    areas = areas_by_surface(table, old, grains, grown);
+    break;
   }
+  for (FaceId f = 0; f < table.size(); ++f)
+    if (grains.of_face[f] != no_id) grains.area[grains.of_face[f]] = areas.of_face[f];
+  const FaceRegions pieces = pieces_of(table, areas, old);
   AreaJoining joining(mesh, table, lines, areas, tree.banded, options, tree.noise, kinks->noise,
-                      std::move(samples));
-  tree.surfaces = joining.surfaces();
-  tree.joins = joining.run(context.part(0.5, 1.0));
+                      samples_by_area(grains, areas.count));
+  const std::vector<FittedSurface> surfaces = joining.surfaces();
+  tree.joins = join_pieces(table, pieces, areas, *kinks, edge_length, surfaces, options.inner);
+  // From here on an area goes by the piece that its pieces were joined to.
+  std::vector<std::uint32_t> gone_to(pieces.count), piece_of(areas.count, no_id);
+  std::iota(gone_to.begin(), gone_to.end(), 0U);
+  for (const AreaTree::Join& join : tree.joins) gone_to[join.gone] = join.into;
+  tree.surfaces.resize(pieces.count);
+  for (FaceId f = 0; f < table.size(); ++f) {
+    const std::uint32_t piece = pieces.of_face[f];
+    tree.surfaces[piece] = surfaces[areas.of_face[f]];
+    if (gone_to[piece] == piece) piece_of[areas.of_face[f]] = piece;
+  }
+  for (AreaTree::Join join : joining.run(context.part(0.5, 1.0))) {
+    join.into = piece_of[join.into];
+    join.gone = piece_of[join.gone];
+    join.height = std::max(join.height, options.inner);
+    tree.joins.push_back(join);
+  }
   tree.face_noise = {tree.noise.distance * options.face_noise,
                      std::max(static_cast<double>(kinks->noise * radians), tree.noise.angle)};
   if (context.cancelled()) return cancelled();
-  tree.smallest = std::move(areas.of_face);
+  tree.smallest = pieces.of_face;
   return tree;
 }
 

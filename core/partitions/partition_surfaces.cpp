@@ -99,7 +99,7 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
           samples.push_back(sample_at(mesh, vertices[i], middle, unit));
         SurfaceFitOptions options;
         options.refined = most_fitted;
-        options.steps = 8;
+        options.steps = 12;
         options.near = options.most;
         const FittedSurface fit = fit_surface(samples, noise, options);
         if (fit.misfit > most_misfit) return;

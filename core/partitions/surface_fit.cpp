@@ -101,9 +101,12 @@ class Fitting {
       sum += s.weight * 0.5 * (std::min(d * d, options_.most) + std::min(a, options_.most));
     }
     static constexpr std::array<double, 6> parameters{3, 4, 5, 6, 7, 6};
-    const double misfit = sum / moments_.weight +
-                          options_.price * parameters[static_cast<std::size_t>(surface.type)] /
-                              static_cast<double>(samples_.size());
+    // Each parameter has to be worth it (Bayesian information criterion), over the noise there is.
+    const double n = static_cast<double>(samples_.size());
+    const double misfit =
+        sum / moments_.weight *
+        (1.0 + options_.price * parameters[static_cast<std::size_t>(surface.type)] * 0.5 *
+                   std::log(3.0 * n) / n);
     if (misfit < best_.misfit) best_ = {surface, misfit};
     return misfit;
   }
@@ -111,7 +114,7 @@ class Fitting {
   /// Judges a first estimate, and what least squares make of it where it is near.
   void try_out(Surface surface) {
     const double first = judge(surface);
-    if (options_.steps == 0 || first > options_.near) return;
+    if (first > options_.near) return;
     const std::size_t stride = std::max<std::size_t>(1, samples_.size() / options_.refined);
     for (int step = 0; step < options_.steps; ++step)
       if (!improve(surface, stride)) return;
@@ -144,13 +147,23 @@ class Fitting {
       if (k == 6) moved[k].tube += shift;
       if (k == 7) moved[k].half_angle += tilt;
     }
+    const auto misfit = [&](const Surface::At& at, const Vector3d& off) {
+      return at.distance * at.distance * by_distance * by_distance +
+             0.5 * off.squaredNorm() * by_angle * by_angle;
+    };
+    // Far is what is far beside the others, so that a bad start does not count as all outliers.
+    double far = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < samples_.size(); i += stride, ++count) {
+      const Surface::At at = surface.at(samples_[i].point);
+      far += misfit(at, at.normal - samples_[i].normal);
+    }
+    far = options_.most * std::max(1.0, far / count);
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
       const SurfaceSample& s = samples_[i];
       const Surface::At at = surface.at(s.point);
       const Vector3d off = at.normal - s.normal;
-      const double chi = at.distance * at.distance * by_distance * by_distance +
-                         0.5 * off.squaredNorm() * by_angle * by_angle;
-      const double w = s.weight * (chi > options_.most ? options_.most / chi : 1.0);
+      const double chi = misfit(at, off);
+      const double w = s.weight * (chi > far ? far / chi : 1.0);
       Row distance = Row::Zero();
       std::array<Row, 3> normal{Row::Zero(), Row::Zero(), Row::Zero()};
       for (int k = 0; k < 8; ++k) {
@@ -173,19 +186,25 @@ class Fitting {
       gram(k, k) *= 1.0 + 1e-6;
       gram(k, k) += 1e-12 * gram.trace();
     }
-    const Row step = gram.ldlt().solve(right);
-    if (!step.allFinite() || std::abs(step[3]) > 0.3 || std::abs(step[4]) > 0.3) return false;
+    Row step = gram.ldlt().solve(right);
+    if (!step.allFinite()) return false;
+    // No farther at once than the linear picture holds.
+    double share = std::min(1.0, 0.3 / std::max(std::hypot(step[3], step[4]), 1e-12));
+    const auto keeps = [&](double value, double change) {
+      if (change < 0.0) share = std::min(share, -0.5 * value / change);
+    };
+    if (has[5]) keeps(surface.radius, step[5]);
+    if (has[6]) keeps(surface.tube, step[6]);
+    if (has[7]) share = std::min(share, 0.3 / std::max(std::abs(step[7]), 1e-12));
+    step *= share;
     surface.point += step[0] * x + step[1] * y + step[2] * surface.axis;
     surface.axis = turned(surface, step[3] * x + step[4] * y, surface.point);
     surface.radius += step[5];
     surface.tube += step[6];
     surface.half_angle += step[7];
-    const bool round = surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder;
-    if (surface.type == SurfaceType::torus)
-      return surface.radius > 0.0 && surface.radius < options_.largest_radius &&
-             surface.tube >= options_.least_tube && surface.tube < options_.largest_radius;
-    if (round) return surface.radius > 0.0 && surface.radius < options_.largest_radius;
-    return surface.half_angle > 0.02 && surface.half_angle < 1.55;
+    if (has[7]) return surface.half_angle > 0.02 && surface.half_angle < 1.55;
+    return surface.radius < options_.largest_radius && surface.tube < options_.largest_radius &&
+           (!has[6] || surface.tube >= options_.least_tube);
   }
 
   /// The axis tilted about the middle of the samples; `point` is shifted with it.

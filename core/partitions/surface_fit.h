@@ -59,11 +59,11 @@ struct FittedSurface {
 
 struct SurfaceFitOptions {
   double most = 9.0;            // squares over the noise are limited to this
-  double price = 1.0;           // of a parameter of the surface, in misfit of one sample
+  double price = 1.0;           // of a parameter of the surface, in what it has to explain
   bool torus = true;            // whether tori are tried
-  int steps = 3;                // of least squares after the first estimate
+  int steps = 5;                // of least squares after the first estimate
   std::size_t refined = 64;     // samples that they read
-  double near = 8.0;            // misfit of that from which on they are not worth it
+  double near = 8.9;            // misfit of that from which on they are not worth it
   double least_tube = 0.3;      // of a torus, in the unit of the points
   double largest_radius = 1e4;  // beyond it is a plane, in the unit of the points
 };

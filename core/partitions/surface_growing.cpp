@@ -179,6 +179,26 @@ std::vector<std::uint32_t> grow_surfaces(const Grains& grains, const SurfaceNois
   return Growing(grains, noise, options).run();
 }
 
+std::vector<std::vector<SurfaceSample>> grain_windows(const Grains& grains, std::size_t size) {
+  std::vector<std::vector<SurfaceSample>> windows;
+  std::vector<std::uint8_t> taken(grains.size(), 0);
+  std::vector<std::uint32_t> members;
+  for (std::uint32_t first = 0; first < grains.size(); ++first) {
+    if (taken[first]) continue;
+    members.assign(1, first);
+    taken[first] = 1;
+    for (std::size_t i = 0; i < members.size() && members.size() < size; ++i)
+      for (const std::uint32_t k : grains.around(members[i]))
+        if (!taken[k] && grains.area[k] == grains.area[first] && members.size() < size) {
+          taken[k] = 1;
+          members.push_back(k);
+        }
+    windows.emplace_back();
+    for (const std::uint32_t k : members) windows.back().push_back(grains.samples[k]);
+  }
+  return windows;
+}
+
 std::vector<SurfaceSample> thinned(std::vector<SurfaceSample> samples, std::size_t most) {
   if (samples.size() <= most) return samples;
   std::vector<SurfaceSample> result;

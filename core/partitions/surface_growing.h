@@ -43,6 +43,9 @@ struct SurfaceGrowingOptions {
 std::vector<std::uint32_t> grow_surfaces(const Grains& grains, const SurfaceNoise& noise,
                                          const SurfaceGrowingOptions& options);
 
+/// The samples of windows of `size` neighbouring grains of one area, side by side.
+std::vector<std::vector<SurfaceSample>> grain_windows(const Grains& grains, std::size_t size);
+
 /// At most `most` of the samples, evenly, with the same weight in all.
 std::vector<SurfaceSample> thinned(std::vector<SurfaceSample> samples, std::size_t most);
 

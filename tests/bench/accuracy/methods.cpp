@@ -152,7 +152,7 @@ Result<Found> area_partitions(const ScanPtr& scan) {
   ENV(distance);
   ENV(angle);
   ENV(surfaces);
-  ENV(grow);
+  ENV(growths);
   o.growing.good = env("ggood", o.growing.good);
   o.growing.admits = env("gadmits", o.growing.admits);
   o.growing.seed = (size_t)env("gseed", 16);

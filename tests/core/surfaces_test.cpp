@@ -1,0 +1,420 @@
+// Partitions by fitted surfaces: which surface it is, how exactly, and where one area ends and the
+// next begins, the same wherever and however the part lies.
+
+#include <gtest/gtest.h>
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/base/random.h"
+#include "core/document/history.h"
+#include "core/partitions/area_tree.h"
+#include "core/partitions/partition_surfaces.h"
+#include "core/partitions/surface_fit.h"
+#include "tests/support/documents.h"
+#include "tests/support/meshes.h"
+
+namespace arris {
+namespace {
+
+using namespace arris::testing;
+using Eigen::Vector3d;
+constexpr double degree = std::numbers::pi / 180.0;
+
+Document found(const Triangles& part, nlohmann::json parameters = nlohmann::json::object()) {
+  return applied(applied(document_of(part), {"find_sharp_lines"}),
+                 {"find_partitions", std::move(parameters)});
+}
+
+std::vector<PartitionSurface> surfaces_of(const Document& document) {
+  return value_of(fit_partition_surfaces(*document.mesh, document.lines, document.partitions));
+}
+
+/// A plane along x that goes over into a cylinder of `radius` after half of `length`, without an
+/// edge.
+Triangles bent_strip(double radius, double length, double h) {
+  return shaped_lattice(length, h, [=](double x, double y) {
+    const double s = x - length / 2.0;
+    if (s <= 0.0) return Point(s, y, 0.0);
+    return Point(radius * std::sin(s / radius), y, radius * (std::cos(s / radius) - 1.0));
+  });
+}
+
+/// Share of the area of the true patch `in` that its main partition covers, and of that partition
+/// what lies in the patch: the smaller of both.
+double agreement(const Document& document, const std::function<bool(const Point&)>& in) {
+  const Mesh& mesh = *document.mesh;
+  double all = 0.0;
+  std::map<std::uint32_t, double> shared, own;
+  for (FaceId f = 0; f < mesh.face_count(); ++f) {
+    const Triangle& t = mesh.triangle(f);
+    const Point centre = (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])) / 3.0;
+    const double area = face_area(mesh, f);
+    own[document.partitions.labels[f]] += area;
+    if (!in(centre)) continue;
+    all += area;
+    shared[document.partitions.labels[f]] += area;
+  }
+  const auto main =
+      std::ranges::max_element(shared, {}, [](const auto& entry) { return entry.second; });
+  return std::min(main->second / all, main->second / own[main->first]);
+}
+
+// ---- fits ----
+
+/// Samples of a surface over a patch of it, with noise along the normal and of the normal.
+std::vector<SurfaceSample> samples_of(const std::function<SurfaceSample(double, double)>& at,
+                                      int steps, const SurfaceNoise& noise, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<SurfaceSample> samples;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      SurfaceSample s = at((i + 0.5) / steps, (j + 0.5) / steps);
+      s.point += noise.distance * random.gaussian() * s.normal;
+      s.normal += noise.angle * Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+      s.normal.normalize();
+      samples.push_back(s);
+    }
+  return samples;
+}
+
+TEST(SurfaceFit, TellsThePlainSurfacesApartAndMeasuresThem) {
+  const SurfaceNoise noise{0.05, 2.0 * degree};
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  const Vector3d shift(30.0, -20.0, 5.0);
+  const auto placed = [&](SurfaceSample s, double side) {
+    return SurfaceSample{turn * s.point + shift, side * (turn * s.normal), 1.0};
+  };
+  for (const double side : {1.0, -1.0}) {
+    const auto fitted = [&](const std::function<SurfaceSample(double, double)>& at) {
+      return fit_surface(
+          samples_of([&](double u, double v) { return placed(at(u, v), side); }, 14, noise, 5),
+          noise);
+    };
+    const FittedSurface plane = fitted([](double u, double v) {
+      return SurfaceSample{{12.0 * u, 10.0 * v, 0.0}, Vector3d::UnitZ()};
+    });
+    EXPECT_EQ(plane.surface.type, SurfaceType::plane);
+    EXPECT_GT(plane.surface.axis.dot(turn * Vector3d::UnitZ()) * side, std::cos(0.3 * degree));
+
+    const auto on_sphere = [](double u, double v) {
+      const double a = 0.3 + 0.8 * u, b = 1.2 * v;
+      const Vector3d n(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+      return SurfaceSample{20.0 * n, n};
+    };
+    const FittedSurface sphere = fitted(on_sphere);
+    EXPECT_EQ(sphere.surface.type, SurfaceType::sphere);
+    EXPECT_NEAR(sphere.surface.radius, 20.0, 0.5);
+    EXPECT_EQ(sphere.surface.side, side);
+    EXPECT_LT((sphere.surface.point - shift).norm(), 0.5);
+
+    const FittedSurface cylinder = fitted([](double u, double v) {
+      const Vector3d n(std::cos(1.2 * u), std::sin(1.2 * u), 0.0);
+      return SurfaceSample{8.0 * n + Vector3d(0.0, 0.0, 15.0 * v), n};
+    });
+    EXPECT_EQ(cylinder.surface.type, SurfaceType::cylinder);
+    EXPECT_NEAR(cylinder.surface.radius, 8.0, 0.15);
+    EXPECT_GT(std::abs(cylinder.surface.axis.dot(turn * Vector3d::UnitZ())), std::cos(degree));
+
+    const FittedSurface cone = fitted([](double u, double v) {
+      const double half = 15.0 * degree, b = 2.0 * u, l = 25.0 + 20.0 * v;
+      const Vector3d out(std::cos(b), std::sin(b), 0.0);
+      return SurfaceSample{l * (std::cos(half) * Vector3d::UnitZ() + std::sin(half) * out),
+                           std::cos(half) * out - std::sin(half) * Vector3d::UnitZ()};
+    });
+    EXPECT_EQ(cone.surface.type, SurfaceType::cone);
+    EXPECT_NEAR(cone.surface.half_angle / degree, 15.0, 0.7);
+    EXPECT_LT((cone.surface.point - shift).norm(), 2.0);
+
+    // A fillet between a cylinder and a plane, over a seventh of the way round.
+    const FittedSurface torus = fitted([](double u, double v) {
+      const double a = 1.5 * v, b = 0.9 * u;
+      const Vector3d out(std::cos(b), std::sin(b), 0.0);
+      const Vector3d n = std::cos(a) * out + std::sin(a) * Vector3d::UnitZ();
+      return SurfaceSample{30.0 * out + 3.0 * n, n};
+    });
+    EXPECT_EQ(torus.surface.type, SurfaceType::torus);
+    EXPECT_NEAR(torus.surface.tube, 3.0, 0.2);
+    EXPECT_NEAR(torus.surface.radius, 30.0, 1.5);
+    for (const FittedSurface& fit : {plane, sphere, cylinder, cone, torus})
+      EXPECT_LT(fit.misfit, 1.4) << name_of(fit.surface.type);
+  }
+}
+
+TEST(SurfaceFit, DistanceAndNormalAreThoseOfTheSurface) {
+  // The normal is the gradient of the distance, whatever the surface.
+  std::vector<Surface> surfaces(6);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    surfaces[k].type = static_cast<SurfaceType>(k);
+    surfaces[k].point = {1.0, 2.0, 3.0};
+    surfaces[k].axis = Vector3d(1.0, 1.0, 2.0).normalized();
+    surfaces[k].radius = 9.0;
+    surfaces[k].tube = 2.5;
+    surfaces[k].half_angle = 0.4;
+    surfaces[k].heights << 0.3, 0.02, -0.03, 0.01, 0.004, -0.006;
+  }
+  Random random(3);
+  for (const Surface& surface : surfaces)
+    for (int k = 0; k < 50; ++k) {
+      Vector3d p = surface.point + 8.0 * Vector3d(random.gaussian(), random.gaussian(), 0.5);
+      if (surface.type == SurfaceType::cone) p -= 40.0 * surface.axis;  // clear of the apex
+      for (int round = 0; round < 20; ++round) {  // on the surface
+        const Surface::At at = surface.at(p);
+        p -= at.distance * at.normal;
+      }
+      const Surface::At at = surface.at(p);
+      ASSERT_NEAR(at.distance, 0.0, 1e-4) << name_of(surface.type);
+      const double step = 1e-5;
+      for (int c = 0; c < 3; ++c) {
+        const Vector3d offset = step * Vector3d::Unit(c);
+        const double slope =
+            (surface.at(p + offset).distance - surface.at(p - offset).distance) / (2.0 * step);
+        EXPECT_NEAR(slope, at.normal[c], 2e-3) << name_of(surface.type);
+      }
+    }
+}
+
+TEST(PartitionSurfaces, AreExactOnScansWithNoise) {
+  // The promises to who rebuilds the part: sigma 0.03 mm.
+  constexpr double sigma = 0.03, h = 0.25;
+  const auto scanned = [&](const Triangles& clean, std::uint64_t seed) {
+    return noisy(clean, sigma / mesh_of(clean)->mean_edge_length(), seed);
+  };
+  const auto whole = [](const Triangles& part) {  // as one partition
+    return applied(document_of(part),
+                   {"find_partitions", {{"intervals", {{0.0, nullptr}}}, {"fill_holes", 1000000}}});
+  };
+  const double radius = 10.0, arc = 90.0 * degree;
+  const Document cylinder =
+      whole(scanned(shaped_lattice(radius * arc, h,
+                                   [&](double x, double y) {
+                                     return Point(radius * std::cos(x / radius),
+                                                  radius * std::sin(x / radius), y);
+                                   }),
+                    1));
+  ASSERT_EQ(cylinder.partitions.partitions.size(), 1u);
+  const PartitionSurface c = surfaces_of(cylinder).front();
+  EXPECT_EQ(c.surface.type, SurfaceType::cylinder);
+  EXPECT_NEAR(c.surface.radius, radius, 0.01);
+  EXPECT_NEAR(c.mean_deviation, sigma * std::sqrt(2.0 / std::numbers::pi), 0.3 * sigma);
+  EXPECT_GT(c.within, 0.98);
+
+  const double half = 12.0 * degree;
+  const Document cone = whole(scanned(
+      shaped_lattice(30.0, h,
+                     [&](double x, double y) {
+                       const double l = 60.0 + x, turn = y / 20.0;
+                       return Point(l * std::sin(half) * std::cos(turn),
+                                    l * std::sin(half) * std::sin(turn), l * std::cos(half));
+                     }),
+      2));
+  const PartitionSurface k = surfaces_of(cone).front();
+  EXPECT_EQ(k.surface.type, SurfaceType::cone);
+  EXPECT_NEAR(k.surface.half_angle / degree, 12.0, 0.1);
+
+  const Vector3d normal = Vector3d(0.2, -0.1, 1.0).normalized();
+  const Document plane = whole(
+      scanned(shaped_lattice(20.0, h,
+                             [&](double x, double y) {
+                               return Point(x, y, -(normal.x() * x + normal.y() * y) / normal.z());
+                             }),
+              3));
+  const PartitionSurface p = surfaces_of(plane).front();
+  EXPECT_EQ(p.surface.type, SurfaceType::plane);
+  EXPECT_LT(std::acos(std::min(1.0, p.surface.axis.dot(normal))) / degree, 0.01);
+}
+
+// ---- areas ----
+
+TEST(FindPartitions, OneSurfaceIsOnePartition) {
+  const std::vector<std::pair<std::string, Triangles>> parts{
+      {"sphere", icosphere(15.0, 5)},
+      {"torus", torus(20.0, 8.0, 120, 60)},
+      {"plane", noisy_plane(40.0, 0.8, 0.0, 0.2, 3)},
+      {"cone", shaped_lattice(30.0, 0.6, [](double x, double y) {
+         const double l = 30.0 + x, turn = y / 12.0;
+         return Point(0.3 * l * std::cos(turn), 0.3 * l * std::sin(turn), 0.95 * l);
+       })}};
+  for (const auto& [name, clean] : parts)
+    for (const double noise : {0.05, 0.1, 0.2}) {
+      const Document document = found(noisy(clean, noise, 11));
+      EXPECT_EQ(document.partitions.partitions.size(), 1u) << name << " " << noise;
+      EXPECT_DOUBLE_EQ(assigned_share(document), 1.0);
+    }
+}
+
+TEST(FindPartitions, APlaneEndsWhereACylinderBegins) {
+  // No edge parts them, only the curvature.
+  for (const double radius : {8.0, 20.0})
+    for (const double noise : {0.0, 0.05, 0.1}) {
+      const Document document = found(noisy(bent_strip(radius, 40.0, 0.7), noise, 2));
+      EXPECT_EQ(document.lines.lines.size(), 0u);
+      EXPECT_EQ(document.partitions.partitions.size(), 2u) << radius << " " << noise;
+      EXPECT_GT(agreement(document, [](const Point& p) { return p.x() < 0.0; }), 0.9)
+          << radius << " " << noise;
+      std::multiset<SurfaceType> types;
+      for (const PartitionSurface& fit : surfaces_of(document)) types.insert(fit.surface.type);
+      EXPECT_EQ(types, (std::multiset{SurfaceType::plane, SurfaceType::cylinder}))
+          << radius << " " << noise;
+    }
+}
+
+TEST(FindPartitions, SidesBetweenLinesAreOneEach) {
+  for (const double noise : {0.0, 0.05, 0.15}) {
+    EXPECT_EQ(found(noisy(divided_cube(20.0, 24), noise, 4)).partitions.partitions.size(), 6u)
+        << noise;
+    EXPECT_EQ(found(noisy(capped_cylinder(12.0, 20.0, 90, 24, 14), noise, 4))
+                  .partitions.partitions.size(),
+              3u)
+        << noise;
+  }
+  EXPECT_EQ(found(cube(12.0)).partitions.partitions.size(), 6u);
+}
+
+TEST(FindPartitions, CoverEveryFaceAndNeverReachOverALine) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Document document = found(random_terrain(40, seed));
+    EXPECT_DOUBLE_EQ(assigned_share(document), 1.0);
+    // Connected without crossing lines, and no smaller than asked for unless enclosed.
+    const std::uint32_t least = document.find_partitions->parameters.at("min_faces");
+    for (const PartitionPtr& partition : document.partitions.partitions) {
+      std::set<FaceId> reached;
+      std::vector<FaceId> front;
+      bool enclosed = true;
+      for (FaceId f = 0; f < document.mesh->face_count() && front.empty(); ++f)
+        if (document.partitions.labels[f] == partition->id) front.push_back(f);
+      reached.insert(front.front());
+      for (std::size_t i = 0; i < front.size(); ++i) {
+        HalfEdgeId h = document.mesh->face_half_edge(front[i]);
+        for (int k = 0; k < 3; ++k, h = document.mesh->next(h)) {
+          const FaceId g = document.mesh->face(Mesh::opposite(h));
+          if (g == no_id || document.lines.is_sharp(h >> 1)) continue;
+          if (document.partitions.labels[g] != partition->id)
+            enclosed = false;
+          else if (reached.insert(g).second)
+            front.push_back(g);
+        }
+      }
+      EXPECT_EQ(reached.size(), partition->faces) << "seed " << seed;
+      EXPECT_TRUE(enclosed || partition->faces >= least) << "seed " << seed;
+    }
+  }
+}
+
+TEST(FindPartitions, DetailGoesFromFewToMany) {
+  const Document lined =
+      applied(document_of(noisy(torus(20.0, 6.0, 120, 40), 0.1, 9)), {"find_sharp_lines"});
+  std::size_t before = 0;
+  for (const double detail : {0.05, 0.2, 1.0, 3.0, 20.0}) {
+    const Document document = applied(lined, {"find_partitions", {{"detail", detail}}});
+    EXPECT_GE(document.partitions.partitions.size(), before) << detail;
+    before = document.partitions.partitions.size();
+  }
+  EXPECT_GT(before, 5u);
+  const Result<Document> refused = apply(lined, {"find_partitions", {{"detail", 0.0}}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("detail"), std::string::npos);
+}
+
+TEST(FindPartitions, DoNotDependOnUnitOrPlace) {
+  const Triangles part = noisy(bent_strip(10.0, 36.0, 0.8), 0.08, 6);
+  const Document here = found(part);
+  // Powers of two change no digit of any float: the very same labels.
+  for (const double scale : {0x1p-10, 0x1p10}) {
+    const Document there = found(moved(part, scale, Eigen::Matrix3d::Identity(), Point::Zero()));
+    EXPECT_EQ(here.partitions.labels, there.partitions.labels) << scale;
+  }
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Point(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+  const Document there = found(moved(part, 25.4, turn, Point(3.0, 2.0, 1.0) * 100.0));
+  ASSERT_EQ(there.partitions.partitions.size(), here.partitions.partitions.size());
+  double same = 0.0;
+  for (FaceId f = 0; f < here.mesh->face_count(); ++f)
+    same += here.partitions.labels[f] == there.partitions.labels[f];
+  EXPECT_GT(same / static_cast<double>(here.mesh->face_count()), 0.97);
+}
+
+TEST(FindPartitions, AreTheSameWhateverTheNumberOfThreads) {
+  const Triangles part = noisy(capped_cylinder(14.0, 18.0, 100, 26, 16), 0.2, 8);
+  std::string first;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const std::string hash = hash_of(found(part));
+    if (first.empty()) first = hash;
+    EXPECT_EQ(hash, first) << threads;
+  }
+}
+
+TEST(FindPartitions, LockedOnesStayAndTheRestGoesRoundThem) {
+  Document document = found(noisy(bent_strip(10.0, 36.0, 0.8), 0.05, 6));
+  const PartitionPtr kept = document.partitions.partitions.front();
+  document = applied(document, {"lock", {{"partitions", {kept->id}}}});
+  const Document again = applied(document, {"find_partitions", {{"detail", 20.0}}});
+  const Partition* still = again.partitions.find(kept->id);
+  ASSERT_NE(still, nullptr);
+  EXPECT_EQ(still->faces, kept->faces);
+  EXPECT_TRUE(still->locked);
+  EXPECT_DOUBLE_EQ(assigned_share(again), 1.0);
+}
+
+TEST(FindPartitions, CorrectionsAreDoneAgain) {
+  Document document = found(noisy(bent_strip(10.0, 36.0, 0.8), 0.05, 6));
+  ASSERT_EQ(document.partitions.partitions.size(), 2u);
+  document =
+      applied(document,
+              {"connect_partitions",
+               {{"partitions",
+                 {document.partitions.partitions[0]->id, document.partitions.partitions[1]->id}}}});
+  ASSERT_EQ(document.partitions.partitions.size(), 1u);
+  const Document again = applied(document, {"find_partitions", {{"detail", 1.1}}});
+  EXPECT_EQ(again.partitions.partitions.size(), 1u);
+}
+
+TEST(FindPartitions, ARowOfTheFirstVersionIsFronts) {
+  const Document lined = applied(document_of(divided_cube(10.0, 10)), {"find_sharp_lines"});
+  const Operation old = value_of(
+      Operation::parse(R"({"operation": "find_partitions", "version": 1, "criterion": "kabs",
+                           "intervals": [[0.0, 1.0]], "min_faces": 1, "fill_holes": 0,
+                           "corrections": true})"));
+  const Document replayed = applied(lined, old);
+  EXPECT_EQ(replayed.partition_method(), PartitionMethod::fronts);
+  EXPECT_EQ(replayed.partitions.partitions.size(), 6u);
+  // Who names intervals means fronts; otherwise it is surfaces.
+  EXPECT_EQ(applied(lined, {"find_partitions", {{"intervals", {{0.0, 1.0}}}}}).partition_method(),
+            PartitionMethod::fronts);
+  EXPECT_EQ(applied(lined, {"find_partitions"}).partition_method(), PartitionMethod::surfaces);
+}
+
+TEST(AreaTree, IsGrownOnceForTheSameLines) {
+  const Document lined =
+      applied(document_of(noisy(divided_cube(20.0, 16), 0.1, 1)), {"find_sharp_lines"});
+  const SharedAreaTree shared(lined.mesh);
+  const AreaTreePtr tree = value_of(shared.get(lined.lines));
+  EXPECT_EQ(value_of(shared.get(lined.lines)), tree);
+  SharpLines none;
+  const AreaTreePtr other = value_of(shared.get(none));
+  EXPECT_NE(other, tree);
+  for (std::size_t k = 1; k < other->joins.size(); ++k)
+    EXPECT_LE(other->joins[k - 1].height, other->joins[k].height);
+}
+
+TEST(AreaTree, CancelledLeavesTheDocumentAsItWas) {
+  const Document lined =
+      applied(document_of(noisy(divided_cube(20.0, 16), 0.1, 1)), {"find_sharp_lines"});
+  std::stop_source stop;
+  stop.request_stop();
+  const Result<Document> stopped =
+      apply(lined, {"find_partitions"}, Context(nullptr, stop.get_token()));
+  ASSERT_FALSE(stopped);
+  EXPECT_TRUE(stopped.error().cancelled);
+}
+
+}  // namespace
+}  // namespace arris
