@@ -1,7 +1,10 @@
 #include "core/partitions/area_tree.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 
@@ -317,8 +320,9 @@ SurfaceNoise noise_of(const std::vector<Samples>& samples, const SurfaceNoise& l
 struct AreaBorder {
   std::array<std::uint32_t, 2> areas{no_id, no_id};  // on its first and second side, as begun with
   BorderSums sums;
-  float line = 0.0F;    // length of line between the two
-  float known = -1.0F;  // the cost as last worked out; negative: not known
+  float line = 0.0F;                         // length of line between the two
+  float known = -1.0F;                       // the cost as last worked out; negative: not known
+  std::array<std::uint32_t, 2> known_for{};  // the states of the areas then, in any order
   const std::vector<std::uint32_t>* parent = nullptr;
 
   std::uint32_t root(std::size_t side) const {
@@ -353,12 +357,16 @@ class AreaJoining {
         area_(areas.count, 0.0F),
         voting_(areas.count, 0.0F),
         samples_(std::move(samples)),
-        fits_(areas.count) {
+        fits_(areas.count),
+        state_(areas.count),
+        next_state_(areas.count) {
     std::iota(parent_.begin(), parent_.end(), 0U);
+    std::iota(state_.begin(), state_.end(), 0U);
     for (FaceId f = 0; f < table.size(); ++f) {
       area_[base_[f]] += table.faces[f].area / mean_face_area;
       if (!banded[f]) voting_[base_[f]] += table.faces[f].area / mean_face_area;
     }
+    state_area_ = voting_;
     parallel_for(
         areas.count,
         [&](std::size_t a) {
@@ -465,28 +473,42 @@ class AreaJoining {
     std::vector<AreaBorder*> borders;
     for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
     parallel_for(
-        pairs.size(),
-        [&](std::size_t k) { borders[k]->known = cost_of(*borders[k], pairs[k][0], pairs[k][1]); },
+        pairs.size(), [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); },
         16);
-    // A cost is known until one of the two areas is joined to another.
-    std::vector<std::uint8_t> changed(area_.size(), 0);
     joining.run(
         height,
-        [&](const AreaBorder& border, std::uint32_t a, std::uint32_t b) {
-          if (border.known >= 0.0F && !changed[a] && !changed[b]) return border.known;
-          return cost_of(border, a, b);
+        [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
+          return known_cost(border, a, b);
         },
         [&](const auto& join, const AreaBorder&) {
-          changed[join.into] = 1;
           this->join(join.into, join.gone, join.height);
         });
+  }
+
+  /// A cost stays as long as neither of the two areas has become another.
+  float known_cost(AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    std::array<std::uint32_t, 2> states{state_[a], state_[b]};
+    if (states[0] > states[1]) std::swap(states[0], states[1]);
+    if (border.known < 0.0F || border.known_for != states) {
+      border.known = cost_of(border, a, b);
+      border.known_for = states;
+    }
+    return border.known;
   }
 
   void join(std::uint32_t into, std::uint32_t gone, float height) {
     height_ = std::max(height_, height);
     parent_[gone] = into;
+    // What the larger of the two is stays as good as it was while little comes to it.
+    const std::uint32_t larger = voting_[into] >= voting_[gone] ? into : gone;
+    state_[into] = state_[larger];
+    state_area_[into] = state_area_[larger];
     area_[into] += area_[gone];
     voting_[into] += voting_[gone];
+    if (voting_[into] > options_.same * state_area_[into]) {
+      state_[into] = next_state_++;
+      state_area_[into] = voting_[into];
+    }
     Samples& mine = samples_[into];
     mine.insert(mine.end(), samples_[gone].begin(), samples_[gone].end());
     samples_[gone] = {};
@@ -509,6 +531,9 @@ class AreaJoining {
   std::vector<FittedSurface> fits_;
   std::vector<AreaTree::Join> joins_;
   float height_ = 0.0F;
+  std::vector<std::uint32_t> state_;  // of each area, a number that changes when it does
+  std::vector<float> state_area_;     // its voting faces when it did
+  std::uint32_t next_state_;
 };
 
 }  // namespace

@@ -28,12 +28,13 @@ struct AreaTreeOptions {
   float first_cut = 1.8F;                  // borders weaker than this by their kinks go unfitted
   float first_quantile = 0.4F;             // of a border's kinks along it: what it counts for
   float first_area = 40.0F;                // below it an area joins the more easily
-  int growths = 4;                         // rounds of growing surfaces, at most: they end
+  int growths = 6;                         // rounds of growing surfaces, at most: they end
   double settled = 0.03;                   // when the noise changes by less than this share of it
   float inner = 0.3F;  // height up to which the pieces of one surface are joined
   SurfaceGrowingOptions growing;
   int grain = 8;              // faces that make one sample of an area
-  std::size_t samples = 256;  // of an area, at most
+  float same = 1.1F;          // times its area, up to which an area that grows stays what it was
+  std::size_t samples = 128;  // of an area, at most
   float rise = 10.0F;         // of the misfits, summed up, by a join to one surface: this much,
   float rise_each = 1.0F;     // and this for each sample of the smaller area
   float rise_border = 0.6F;   // and for each edge of border between the two

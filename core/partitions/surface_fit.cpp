@@ -71,15 +71,20 @@ class Fitting {
 
   FittedSurface best() {
     plane();
-    if (samples_.size() >= 4) {
-      sphere();
-      cylinder();
-      cone();
-      if (options_.torus) {
-        torus();
-        torus_by_curvature();
-      }
-    }
+    if (samples_.size() < 4) return best_;
+    sphere();
+    cylinder();
+    cone();
+    torus();
+    torus_by_curvature();
+    return best_;
+  }
+
+  FittedSurface from(const Surface& start) {
+    if (start.type == SurfaceType::plane)
+      plane();
+    else if (start.type != SurfaceType::free)
+      try_out(start);
     return best_;
   }
 
@@ -116,13 +121,19 @@ class Fitting {
     const double first = judge(surface);
     if (first > options_.near) return;
     const std::size_t stride = std::max<std::size_t>(1, samples_.size() / options_.refined);
-    for (int step = 0; step < options_.steps; ++step)
-      if (!improve(surface, stride)) return;
+    double before = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < options_.steps; ++step) {
+      double misfit = 0.0;
+      if (!improve(surface, stride, misfit)) return;
+      if (misfit > 0.99 * before) break;
+      before = misfit;
+    }
     judge(surface);
   }
 
   /// A step of Gauss and Newton on distances and normals, far samples counting less.
-  bool improve(Surface& surface, std::size_t stride) const {
+  /// `mean`: the misfit that it started from. False where it leads to no such surface.
+  bool improve(Surface& surface, std::size_t stride, double& mean) const {
     using Row = Eigen::Matrix<double, 8, 1>;
     Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Zero();
     Row right = Row::Zero();
@@ -157,7 +168,8 @@ class Fitting {
       const Surface::At at = surface.at(samples_[i].point);
       far += misfit(at, at.normal - samples_[i].normal);
     }
-    far = options_.most * std::max(1.0, far / count);
+    mean = far / count;
+    far = options_.most * std::max(1.0, mean);
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
       const SurfaceSample& s = samples_[i];
       const Surface::At at = surface.at(s.point);
@@ -477,6 +489,11 @@ Surface::At Surface::at(const Vector3d& p) const {
 FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                           const SurfaceFitOptions& options) {
   return Fitting(samples, noise, options).best();
+}
+
+FittedSurface refit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                            const Surface& start, const SurfaceFitOptions& options) {
+  return Fitting(samples, noise, options).from(start);
 }
 
 FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,

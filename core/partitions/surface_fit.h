@@ -60,9 +60,8 @@ struct FittedSurface {
 struct SurfaceFitOptions {
   double most = 9.0;            // squares over the noise are limited to this
   double price = 1.0;           // of a parameter of the surface, in what it has to explain
-  bool torus = true;            // whether tori are tried
   int steps = 5;                // of least squares after the first estimate
-  std::size_t refined = 64;     // samples that they read
+  std::size_t refined = 32;     // samples that they read
   double near = 8.9;            // misfit of that from which on they are not worth it
   double least_tube = 0.3;      // of a torus, in the unit of the points
   double largest_radius = 1e4;  // beyond it is a plane, in the unit of the points
@@ -71,6 +70,10 @@ struct SurfaceFitOptions {
 /// The best of plane, sphere, cylinder, cone and torus.
 FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                           const SurfaceFitOptions& options = {});
+
+/// The surface of the same type as `start`, which is near already; misfit infinite for free ones.
+FittedSurface refit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                            const Surface& start, const SurfaceFitOptions& options = {});
 
 /// A height field of degree two over the mean plane; misfit infinite where the samples turn too far
 /// for one.

@@ -25,7 +25,8 @@ class Growing {
         noise_(noise),
         options_(options),
         surface_(grains.size(), no_id),
-        seen_(grains.size(), 0) {}
+        seen_(grains.size(), 0),
+        tried_(grains.size(), 0) {}
 
   std::vector<std::uint32_t> run() {
     // Grains of each area; the areas by their size.
@@ -41,18 +42,18 @@ class Growing {
     for (const std::uint32_t a : order) {
       if (members[a].size() < options_.least) break;
       grow(members[a]);
-      // What it did not explain, from places in it.
+      // What it did not explain, from places in it; a place where nothing grew is not tried again.
       for (const std::uint32_t k : members[a]) {
-        if (surface_[k] != no_id || tried(k)) continue;
-        grow(window(k));
+        if (surface_[k] != no_id || tried_[k]) continue;
+        const std::vector<std::uint32_t> seed = window(k);
+        grow(seed);
+        for (const std::uint32_t other : seed) tried_[other] = 1;
       }
     }
     return std::move(surface_);
   }
 
  private:
-  bool tried(std::uint32_t k) { return seen_[k] == tried_mark; }
-
   /// Free grains about one, in its area.
   std::vector<std::uint32_t> window(std::uint32_t first) {
     ++stamp_;
@@ -68,19 +69,21 @@ class Growing {
     return found;
   }
 
-  FittedSurface fit(const std::vector<std::uint32_t>& members) const {
+  std::vector<SurfaceSample> samples_of(const std::vector<std::uint32_t>& members) const {
     std::vector<SurfaceSample> samples;
-    const std::size_t step = std::max<std::size_t>(1, members.size() / options_.samples);
+    const std::size_t step = members.size() / options_.samples + 1;
     for (std::size_t i = 0; i < members.size(); i += step)
       samples.push_back(grains_.samples[members[i]]);
-    return fit_surface(samples, noise_);
+    return samples;
   }
 
   bool grow(std::vector<std::uint32_t> members) {
     std::erase_if(members, [&](std::uint32_t k) { return surface_[k] != no_id; });
     if (members.size() < options_.least) return false;
-    FittedSurface fitted = fit(members);
+    FittedSurface fitted = fit_surface(samples_of(members), noise_);
     if (fitted.misfit > 2.0 * options_.good) return false;
+    std::size_t searched = members.size();  // when all types were tried last
+    std::vector<std::uint32_t> kept;        // as far as one surface explained all of it
     for (int round = 0; round < options_.rounds; ++round) {
       // From the grain that fits best, so that what is reached hangs together.
       std::uint32_t first = members.front();
@@ -90,7 +93,7 @@ class Growing {
           least = m;
           first = k;
         }
-      if (least > options_.admits) return false;
+      if (least > options_.admits) break;
       ++stamp_;
       std::vector<std::uint32_t> reached{first};
       seen_[first] = stamp_;
@@ -102,25 +105,34 @@ class Growing {
             if (misfit_of(grains_.samples[k], fitted.surface, noise_) <= options_.admits)
               reached.push_back(k);
           }
-      if (reached.size() < options_.least) return false;
+      if (reached.size() < options_.least) break;
       const bool settled = reached.size() <= members.size() + members.size() / 50 &&
                            reached.size() + members.size() / 50 >= members.size();
       members.swap(reached);
-      fitted = fit(members);
+      const std::vector<SurfaceSample> samples = samples_of(members);
+      fitted = refit_surface(samples, noise_, fitted.surface);
+      if (fitted.misfit > options_.good || 2 * members.size() > 3 * searched) {
+        fitted = fit_surface(samples, noise_);
+        searched = members.size();
+      }
+      if (fitted.misfit <= options_.good)
+        kept = members;
+      else if (!kept.empty() || fitted.misfit > 2.0 * options_.good)
+        break;
       if (settled) break;
     }
-    if (fitted.misfit > options_.good) return false;
-    for (const std::uint32_t k : members) surface_[k] = count_;
+    if (kept.empty()) return false;
+    for (const std::uint32_t k : kept) surface_[k] = count_;
     ++count_;
     return true;
   }
 
-  static constexpr std::uint32_t tried_mark = 0xFFFFFFFFu;
   const Grains& grains_;
   const SurfaceNoise& noise_;
   const SurfaceGrowingOptions& options_;
   std::vector<std::uint32_t> surface_;
   std::vector<std::uint32_t> seen_;
+  std::vector<std::uint8_t> tried_;
   std::uint32_t stamp_ = 0;
   std::uint32_t count_ = 0;
 };

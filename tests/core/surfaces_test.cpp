@@ -165,7 +165,7 @@ TEST(SurfaceFit, DistanceAndNormalAreThoseOfTheSurface) {
     for (int k = 0; k < 50; ++k) {
       Vector3d p = surface.point + 8.0 * Vector3d(random.gaussian(), random.gaussian(), 0.5);
       if (surface.type == SurfaceType::cone) p -= 40.0 * surface.axis;  // clear of the apex
-      for (int round = 0; round < 20; ++round) {  // on the surface
+      for (int round = 0; round < 20; ++round) {                        // on the surface
         const Surface::At at = surface.at(p);
         p -= at.distance * at.normal;
       }

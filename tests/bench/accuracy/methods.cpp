@@ -20,6 +20,7 @@
 #include "core/document/document.h"
 #include "core/document/operation.h"
 #include "core/partitions/area_tree.h"
+#include "core/partitions/intervals.h"
 #include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/lines.h"
 
@@ -112,64 +113,40 @@ constexpr Idea ideas[] = {
     {"no exact creases", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.exact = false; }},
 };
 
-double env(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
-}
-Result<Found> area_partitions(const ScanPtr& scan) {
+/// The partitions of the default method with some of its ideas changed, between its lines.
+struct AreaIdea {
+  const char* name;
+  void (*change)(AreaTreeOptions&);
+};
+
+Result<Found> surface_areas(const ScanPtr& scan, const AreaIdea& idea) {
   Result<Document> document = opened(scan);
   if (document) document = apply(*document, {"find_sharp_lines"});
   if (!document) return tl::unexpected<Error>(document.error());
   Found found;
   for (const LinePtr& line : document->lines.lines)
     found.lines.push_back(polyline(*document->mesh, line->vertices));
-  AreaTreeOptions o;
-#define ENV(x) o.x = static_cast<decltype(o.x)>(env(#x, static_cast<double>(o.x)))
-  ENV(band);
-  ENV(first_cut);
-  ENV(first_area);
-  ENV(grain);
-  ENV(samples);
-  ENV(rise);
-  ENV(rise_area);
-  ENV(rise_each);
-  ENV(face_noise);
-  o.settling.rounds = (int)env("srounds", 12);
-  o.settling.length = env("slength", o.settling.length);
-  o.settling.free = env("sfree", o.settling.free);
-  o.settling.most = env("smost", o.settling.most);
-  ENV(blend);
-  ENV(narrow_band);
-  ENV(narrow_rings);
-  ENV(rise_border);
-  ENV(free_border);
-  ENV(free);
-  ENV(free_rise);
-  ENV(kink);
-  ENV(small);
-  ENV(line_share);
-  ENV(rounds);
-  ENV(distance);
-  ENV(angle);
-  ENV(surfaces);
-  ENV(growths);
-  o.growing.good = env("ggood", o.growing.good);
-  o.growing.admits = env("gadmits", o.growing.admits);
-  o.growing.seed = (size_t)env("gseed", 16);
-  o.growing.least = (size_t)env("gleast", 6);
-  o.watershed.depth = static_cast<float>(env("depth", 0.5));
-  o.watershed.area = static_cast<float>(env("warea", 6));
-  const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, o, {});
+  AreaTreeOptions options;
+  idea.change(options);
+  const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, options, {});
   if (!tree) return tl::unexpected<Error>(tree.error());
-  found.labels =
-      tree->cut(static_cast<float>(env("cut", 1)), static_cast<std::uint32_t>(env("least", 12)))
-          .of_face;
-  if (std::getenv("verbose"))
-    std::fprintf(stderr, "count %zu joins %zu noise %g deg %g\n", tree->surfaces.size(),
-                 tree->joins.size(), tree->noise.angle * 57.3, tree->noise.distance);
+  found.labels = tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)).of_face;
   for (std::uint32_t& label : found.labels) ++label;
   return found;
 }
+
+/// Each idea of the partitions switched off, one at a time.
+constexpr AreaIdea area_ideas[] = {
+    {"no grains", [](AreaTreeOptions& o) { o.grain = 1; }},
+    {"no growing", [](AreaTreeOptions& o) { o.growing.good = 0.0; }},
+    {"noise of windows", [](AreaTreeOptions& o) { o.growths = 1; }},
+    {"no joins by surfaces", [](AreaTreeOptions& o) { o.surfaces = false; }},
+    {"no joins over kinks", [](AreaTreeOptions& o) { o.kink = 1e-3F; }},
+    {"no limit on free areas", [](AreaTreeOptions& o) { o.free_rise = 1e9F; }},
+    {"borders count nothing", [](AreaTreeOptions& o) { o.rise_border = o.free_border = 0.0F; }},
+    {"all beside lines vote", [](AreaTreeOptions& o) { o.band = 0.0F; }},
+    {"borders not settled", [](AreaTreeOptions& o) { o.settling.rounds = 0; }},
+};
 
 /// All edges of an exterior angle above the usual one, linked into lines.
 Result<Found> dihedral_lines(const ScanPtr& scan) {
@@ -279,7 +256,10 @@ std::vector<Method> method_table(bool with_ideas) {
     for (const Idea& idea : ideas)
       methods.push_back(
           timed(idea.name, [&idea](const ScanPtr& scan) { return jump_lines(scan, idea); }));
-  methods.push_back(timed("areas", area_partitions));
+  if (with_ideas)
+    for (const AreaIdea& idea : area_ideas)
+      methods.push_back(
+          timed(idea.name, [&idea](const ScanPtr& scan) { return surface_areas(scan, idea); }));
   methods.push_back(timed("dihedral 30", dihedral_lines));
 #ifdef ARRIS_ACCURACY_VTK
   methods.push_back(timed("vtkFeatureEdges", vtk_feature_edges));
