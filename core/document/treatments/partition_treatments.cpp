@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatments.h"
+#include "core/partitions/four_sided_cuts.h"
 
 namespace arris {
 
@@ -371,6 +373,101 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
+// split_to_four_sides: {partitions: [ids], all that have more, or holes, where left out}
+
+/// Whether there may be a cut for it at all.
+bool wants_cuts(const Partition& partition, const Outline& outline) {
+  return !partition.locked && !outline.loops.empty() && outline.handles == 0 &&
+         !outline.is_four_sided();
+}
+
+Result<json> resolve_four_sides(const Document& document, const json& given) {
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  json with_list = given;
+  if (!with_list.contains("partitions")) {
+    std::vector<std::uint32_t> ids;
+    const std::vector<Outline> outlines =
+        outlines_of(*document.mesh, document.lines, document.partitions);
+    for (std::size_t k = 0; k < outlines.size(); ++k)
+      if (const Partition& partition = *document.partitions.partitions[k];
+          wants_cuts(partition, outlines[k]))
+        ids.push_back(partition.id);
+    if (ids.empty())
+      return fail("Every partition that is not locked has at most four sides: nothing to cut.");
+    with_list["partitions"] = ids;
+  }
+  ParameterReader reader("split_to_four_sides", with_list);
+  read_partitions(reader, document, "partitions", "anchors", false);
+  return reader.finish();
+}
+
+/// Cuts one partition as four_sided_cuts() proposes it. The ids of its pieces; `obstacle`: why one
+/// of them keeps more than four sides.
+std::vector<std::uint32_t> split_one(Ground& ground, std::uint32_t id, std::string& obstacle) {
+  std::vector<std::uint32_t> pieces{id};
+  const std::uint32_t first_new = ground.next_id;
+  const FourSidedPlan plan = four_sided_cuts(ground.mesh, ground.curvatures, ground.lines,
+                                             ground.partitions, *ground.partitions.find(id));
+  obstacle = plan.obstacle;
+  for (const FourSidedCut& cut : plan.cuts) {
+    const Partition& piece =
+        *ground.partitions.find(partition_along(ground.mesh, ground.partitions, cut.path));
+    const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), piece, cut.path);
+    const Partition fresh = ground.new_partition(piece.interval);
+    ground.change(labelled(*part, fresh.id), {fresh});
+  }
+  for (std::uint32_t piece = first_new; piece < ground.next_id; ++piece) pieces.push_back(piece);
+  return pieces;
+}
+
+Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  std::set<std::uint32_t> ids;
+  const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
+  for (const PartitionPtr& partition : partitions)
+    if (partition->locked)
+      outcome.adapted =
+          "Partition " + std::to_string(partition->id) + " is locked; it is left as it is.";
+    else
+      ids.insert(partition->id);
+  if (partitions.empty()) return fail(outcome.adapted);
+  // A cut may end in a side of a partition that was cut before, which thereby gets a corner more.
+  constexpr int rounds = 4;
+  std::map<std::uint32_t, std::string> obstacles;
+  bool any = false;
+  for (int k = 0; k < rounds; ++k) {
+    obstacles.clear();
+    std::set<std::uint32_t> pieces;
+    for (const std::uint32_t id : ids) {
+      std::string obstacle;
+      const std::vector<std::uint32_t> own = split_one(ground, id, obstacle);
+      pieces.insert(own.begin(), own.end());
+      if (!obstacle.empty()) obstacles[id] = obstacle;
+    }
+    if (pieces.size() == ids.size()) break;
+    any = true;
+    ids = std::move(pieces);
+  }
+  std::string kept;
+  if (!obstacles.empty()) {
+    const auto& [id, obstacle] = *obstacles.begin();
+    kept = "Partition " + std::to_string(id) + " keeps more than four sides: " + obstacle + ".";
+    if (obstacles.size() > 1) kept += " So do " + std::to_string(obstacles.size() - 1) + " more.";
+  }
+  if (!any && !kept.empty()) return fail(kept);
+  if (!any && round == Round::first)
+    return fail(ids.size() == 1
+                    ? "Partition " + std::to_string(*ids.begin()) +
+                          " has at most four sides already: nothing to cut."
+                    : std::string("These partitions have at most four sides already: nothing to "
+                                  "cut."));
+  if (!any && outcome.adapted.empty())
+    outcome.adapted = "What is found there now has at most four sides already.";
+  if (!kept.empty()) outcome.adapted = kept;
+  return outcome;
+}
+
 // paint_partition: {partition: id (0: into none), region}
 
 Result<json> resolve_paint(const Document& document, const json& given) {
@@ -455,6 +552,8 @@ const Treatment remove_small_partitions_treatment{"remove_small_partitions", aft
 const Treatment restart_partitions_treatment{"restart_partitions", after_partitions, restart};
 const Treatment recompute_partitions_treatment{"recompute_partitions", after_partitions, recompute};
 const Treatment split_partition_treatment{"split_partition", after_partitions, split};
+const Treatment split_to_four_sides_treatment{"split_to_four_sides", after_partitions,
+                                              split_to_four_sides};
 const Treatment paint_partition_treatment{"paint_partition", after_partitions, paint};
 const Treatment smooth_boundaries_treatment{"smooth_boundaries", after_partitions, smooth};
 
@@ -491,6 +590,12 @@ const OperationKind recompute_partitions_operation{"recompute_partitions",
 const OperationKind split_partition_operation{
     "split_partition", "Split partition", 1, resolve_split, apply<split_partition_treatment>,
     partitions_gist};
+const OperationKind split_to_four_sides_operation{"split_to_four_sides",
+                                                  "Split to four sides",
+                                                  1,
+                                                  resolve_four_sides,
+                                                  apply<split_to_four_sides_treatment>,
+                                                  partitions_gist};
 const OperationKind paint_partition_operation{
     "paint_partition", "Paint partition", 1, resolve_paint, apply<paint_partition_treatment>,
     paint_gist};
