@@ -7,6 +7,7 @@
 #include <optional>
 #include <queue>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 #include "core/partitions/interactive_treatments.h"
@@ -18,6 +19,8 @@ namespace {
 using Cost = std::uint64_t;  // in millionths of a mean edge
 constexpr Cost no_cost = std::numeric_limits<Cost>::max() / 8;
 constexpr double cost_unit = 1e6;
+/// An edge as far from the straight line as that is long costs so many times more.
+constexpr double away_from_straight = 4.0;
 
 using Node = std::uint32_t;
 
@@ -82,8 +85,9 @@ class InsideGraph {
                                      std::sqrt(curvature_at(curvatures, vertices_[link.from])));
       // Undefined on the border and infinite nowhere; noise is not to make a wall of an edge.
       const double bend = std::isnan(change) ? 0.0 : std::min(change * length, 1.0);
-      arcs_.push_back({link.to, static_cast<Cost>(std::llround(length * unit *
-                                                               (1.0 + curvature_weight * bend)))});
+      // At least 1: only where a path starts does it cost nothing.
+      const double cost = length * unit * (1.0 + curvature_weight * bend);
+      arcs_.push_back({link.to, static_cast<Cost>(std::max<std::int64_t>(std::llround(cost), 1))});
     }
     // A sharp line inside is not to be crossed, at its vertices either.
     closed_.assign(vertices_.size(), false);
@@ -93,35 +97,45 @@ class InsideGraph {
     reached_.assign(vertices_.size(), {no_cost, no_id, false});
   }
 
-  /// Cheapest paths from a node of the border, until `done(node of the border)`.
-  template <class Done>
-  void search(Node from, const Done& done) {
-    for (const Node k : touched_) reached_[k] = {no_cost, no_id, false};
-    touched_.assign(1, from);
-    reached_[from] = {0, no_id, false};
-    using Entry = std::pair<Cost, Node>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    queue.emplace(0, from);
-    while (!queue.empty()) {
-      const auto [cost, k] = queue.top();
-      queue.pop();
-      if (reached_[k].done) continue;
-      reached_[k].done = true;
-      if (k != from && k < border_nodes_) {
-        if (done(k)) return;
-        continue;
-      }
-      for (std::size_t arc = starts_[k]; arc < starts_[k + 1]; ++arc) {
-        const auto [to, more] = arcs_[arc];
-        Reached& there = reached_[to];
-        if (there.done || closed_[to]) continue;
-        const Cost next = cost + more;
-        if (next > there.cost || (next == there.cost && k >= there.by)) continue;
-        if (there.cost == no_cost) touched_.push_back(to);
-        there = {next, k, false};
-        queue.emplace(next, to);
-      }
+  /// Where cuts to a place of the border end: there, or where that lies in one face only, an ear
+  /// without an edge inside, at the nearest places beside it that have one. None: there is none
+  /// near.
+  std::vector<Node> doors(std::size_t loop, std::size_t place) const {
+    const std::size_t size =
+        (loop + 1 < loop_start_.size() ? loop_start_[loop + 1] : border_nodes_) - loop_start_[loop];
+    constexpr std::size_t most_beside = 2;
+    for (std::size_t beside = 0; beside <= std::min(most_beside, size / 2); ++beside) {
+      std::vector<Node> nodes;
+      for (const std::size_t k : {(place + beside) % size, (place + size - beside) % size})
+        if (opens(node(loop, k)) && (nodes.empty() || nodes.back() != node(loop, k)))
+          nodes.push_back(node(loop, k));
+      if (!nodes.empty()) return nodes;
     }
+    return {};
+  }
+
+  /// Cheapest paths from nodes of the border, until `done(node of the border)`.
+  template <class Done>
+  void search(const std::vector<Node>& from, const Done& done) {
+    const auto as_it_is = [](Node, Cost cost) { return cost; };
+    run(from, as_it_is, done);
+  }
+  /// The cheapest path between two nodes of the border that also keeps to the straight line between
+  /// them: on a lattice many paths are equally short, and most of them have a kink. Empty: none.
+  std::vector<Node> straight_path(Node from, Node to) {
+    const Point start = mesh_.point(vertices_[from]);
+    const Point along = mesh_.point(vertices_[to]) - start;
+    const double length = along.norm();
+    if (!(length > 0.0)) return {};
+    const auto straightened = [&](Node k, Cost cost) {
+      const Point offset = mesh_.point(vertices_[k]) - start;
+      const double t = std::clamp(offset.dot(along) / (length * length), 0.0, 1.0);
+      const double away = (offset - t * along).norm() / length;
+      return static_cast<Cost>(
+          std::llround(static_cast<double>(cost) * (1.0 + away_from_straight * away)));
+    };
+    run({from}, straightened, [&](Node k) { return k == to; });
+    return has_reached(to) ? path_to(to) : std::vector<Node>();
   }
   bool has_reached(Node k) const { return reached_[k].done; }
   Cost cost_to(Node k) const { return reached_[k].done ? reached_[k].cost : no_cost; }
@@ -158,6 +172,44 @@ class InsideGraph {
     Node to;
     Cost cost;
   };
+
+  bool opens(Node k) const {
+    for (std::size_t arc = starts_[k]; arc < starts_[k + 1]; ++arc)
+      if (!closed_[arcs_[arc].to]) return true;
+    return false;
+  }
+
+  template <class Weigh, class Done>
+  void run(const std::vector<Node>& sources, const Weigh& weigh, const Done& done) {
+    for (const Node k : touched_) reached_[k] = {no_cost, no_id, false};
+    touched_ = sources;
+    using Entry = std::pair<Cost, Node>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const Node k : sources) {
+      reached_[k] = {0, no_id, false};
+      queue.emplace(0, k);
+    }
+    while (!queue.empty()) {
+      const auto [cost, k] = queue.top();
+      queue.pop();
+      if (reached_[k].done) continue;
+      reached_[k].done = true;
+      if (cost > 0 && k < border_nodes_) {
+        if (done(k)) return;
+        continue;
+      }
+      for (std::size_t arc = starts_[k]; arc < starts_[k + 1]; ++arc) {
+        const auto [to, more] = arcs_[arc];
+        Reached& there = reached_[to];
+        if (there.done || closed_[to]) continue;
+        const Cost next = cost + weigh(to, more);
+        if (next > there.cost || (next == there.cost && k >= there.by)) continue;
+        if (there.cost == no_cost) touched_.push_back(to);
+        there = {next, k, false};
+        queue.emplace(next, to);
+      }
+    }
+  }
 
   static double curvature_at(const Curvatures& curvatures, VertexId v) {
     return curvatures.kabs[v];
@@ -237,15 +289,19 @@ class CornerCuts {
       : n_(loop.corners.size()), cuts_(n_ * n_) {
     const Arcs arcs(mesh, loop);
     std::unordered_map<Node, std::size_t> corner_of;
-    for (std::size_t k = 0; k < n_; ++k) corner_of[graph.node(0, loop.corners[k])] = k;
+    std::vector<std::vector<Node>> doors;
+    for (std::size_t k = 0; k < n_; ++k) {
+      doors.push_back(graph.doors(0, loop.corners[k]));
+      for (const Node door : doors.back()) corner_of.try_emplace(door, k);
+    }
     for (const std::size_t partners : {options.partners, n_}) {
       for (std::size_t i = 0; i < n_; ++i) {
         std::size_t found = 0;
-        graph.search(graph.node(0, loop.corners[i]), [&](Node k) {
+        graph.search(doors[i], [&](Node k) {
           const auto corner = corner_of.find(k);
           if (corner == corner_of.end()) return false;
           const std::size_t j = corner->second;
-          if (are_neighbours(i, j)) return false;
+          if (i == j || are_neighbours(i, j)) return false;
           std::optional<Candidate>& cut = cuts_[std::min(i, j) * n_ + std::max(i, j)];
           if (!cut) {
             Candidate way{0, graph.path_to(k), {}};
@@ -344,7 +400,7 @@ std::vector<Candidate> side_cuts(const Mesh& mesh, InsideGraph& graph, const Bor
   const std::size_t n = loop.corners.size();
   std::vector<Candidate> result;
   for (std::size_t i = 0; i < n; ++i) {
-    graph.search(graph.node(0, loop.corners[i]), [](Node) { return false; });
+    graph.search(graph.doors(0, loop.corners[i]), [](Node) { return false; });
     // The best end on each side.
     for (std::size_t side = 0; side < n; ++side) {
       if (side == i || (side + 1) % n == i) continue;
@@ -353,7 +409,7 @@ std::vector<Candidate> side_cuts(const Mesh& mesh, InsideGraph& graph, const Bor
       for (std::size_t k = (loop.corners[side] + 1) % size; k != loop.corners[(side + 1) % n];
            k = (k + 1) % size) {
         const Node end = graph.node(0, k);
-        if (!graph.has_reached(end)) continue;
+        if (!graph.has_reached(end) || graph.cost_to(end) == 0) continue;
         Candidate way{0, graph.path_to(end), {}};
         const std::vector<VertexId> vertices = graph.vertices(way.path);
         way.ends = std::minmax(vertices.front(), vertices.back());
@@ -387,7 +443,9 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
   for (std::size_t loop = 0; loop < 2; ++loop) {
     const std::vector<std::size_t>& corners = outline.loops[loop].corners;
     const std::size_t step = (corners.size() + options.hole_ends - 1) / options.hole_ends;
-    for (std::size_t k = 0; k < corners.size(); k += step) ends[loop].push_back({corners[k], true});
+    for (std::size_t k = 0; k < corners.size(); k += step)
+      for (const Node door : graph.doors(loop, corners[k]))
+        ends[loop].push_back({door - graph.node(loop, 0), true});
     for (const std::size_t place : arcs[loop].spread(options.hole_ends))
       if (!std::binary_search(corners.begin(), corners.end(), place))
         ends[loop].push_back({place, false});
@@ -399,7 +457,7 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
   };
   std::vector<Way> ways;
   for (const End& from : ends[0]) {
-    graph.search(graph.node(0, from.place), [](Node) { return false; });
+    graph.search({graph.node(0, from.place)}, [](Node) { return false; });
     for (const End& to : ends[1]) {
       const Node end = graph.node(1, to.place);
       if (!graph.has_reached(end)) continue;
@@ -469,6 +527,7 @@ class Planner {
         if (!own.is_four_sided() && !given_up_.contains(id)) open_.push_back(id);
       }
     } while (!open_.empty());
+    if (std::getenv("D")) std::fprintf(stderr, "plan end\n");
     for (const std::uint32_t id : given_up_)
       if (const Outline& own = outlines_.at(id); !own.is_four_sided() && plan_.obstacle.empty())
         plan_.obstacle = why_not(own);
@@ -505,8 +564,14 @@ class Planner {
     const Outline own = outlines_.at(id);
     InsideGraph graph(ground(), curvatures_, piece, own, options_.curvature);
     if (own.loops.size() > 1) {
-      for (const HoleCuts& pair : hole_cuts(mesh_, graph, own, options_))
-        if (try_cut(joined(graph, own.loops[1], pair))) return true;
+      for (const HoleCuts& pair : hole_cuts(mesh_, graph, own, options_)) {
+        HoleCuts straight = pair;
+        for (std::vector<Node>& path : straight.paths)
+          path = graph.straight_path(path.front(), path.back());
+        const auto& [one, other] = straight.paths;
+        const bool meet = std::ranges::find_first_of(one, other) != one.end();
+        if (try_cut(joined(graph, own.loops[1], meet ? pair : straight))) return true;
+      }
       return false;
     }
     CornerCuts corners(mesh_, graph, own.loops[0], options_);
@@ -519,22 +584,41 @@ class Planner {
       bool any = false;
       for (const Candidate& way : found) {
         // Those that meet others inside are found again within the pieces.
-        const auto inside_begin = way.path.begin() + 1, inside_end = way.path.end() - 1;
-        if (std::any_of(inside_begin, inside_end, [&](Node k) { return used.contains(k); }))
-          continue;
-        if (try_cut(single(graph, way.path))) {
-          used.insert(inside_begin, inside_end);
+        bool meets = false;
+        if (try_paths(graph, way.path, used, meets))
           any = true;
-        } else {
+        else if (!meets)
           banned.insert(way.ends);
-        }
       }
       if (any) return true;
     }
     constexpr std::size_t most_side_cuts = 8;
     const std::vector<Candidate> to_sides = side_cuts(mesh_, graph, own.loops[0], options_);
-    for (std::size_t k = 0; k < std::min(most_side_cuts, to_sides.size()); ++k)
-      if (try_cut(single(graph, to_sides[k].path))) return true;
+    for (std::size_t k = 0; k < std::min(most_side_cuts, to_sides.size()); ++k) {
+      std::set<Node> used;
+      bool meets = false;
+      if (try_paths(graph, to_sides[k].path, used, meets)) return true;
+    }
+    return false;
+  }
+
+  /// Cuts straight, or else along the cheapest path. `used`: nodes inside that cuts run through
+  /// already; `meets`: whether a path was left out for one of them.
+  bool try_paths(InsideGraph& graph, const std::vector<Node>& cheapest, std::set<Node>& used,
+                 bool& meets) {
+    std::vector<std::vector<Node>> paths{graph.straight_path(cheapest.front(), cheapest.back()),
+                                         cheapest};
+    if (paths[0] == paths[1]) paths.pop_back();
+    for (const std::vector<Node>& path : paths) {
+      if (path.empty()) continue;
+      const std::span inside(path.begin() + 1, path.end() - 1);
+      if (std::ranges::any_of(inside, [&](Node k) { return used.contains(k); })) {
+        meets = true;
+      } else if (try_cut(single(graph, path))) {
+        used.insert(inside.begin(), inside.end());
+        return true;
+      }
+    }
     return false;
   }
 
@@ -586,6 +670,15 @@ class Planner {
       const Excess excess = excess_of(pieces[k]);
       after.first += excess.first;
       after.second += excess.second;
+    }
+    if (std::getenv("D")) {
+      std::fprintf(stderr, "  try len %g excess %zu,%zu -> %zu,%zu :",
+                   cut.length / mesh_.mean_edge_length(), excess_of(known->second).first,
+                   excess_of(known->second).second, after.first, after.second);
+      for (auto& [k, o] : pieces)
+        std::fprintf(stderr, " %zu(%u f, L %g)", o.sides(), edited.partitions.find(k)->faces,
+                     o.loops[0].length / mesh_.mean_edge_length());
+      std::fprintf(stderr, "\n");
     }
     if (!(after < excess_of(known->second))) return false;
     now_ = std::move(edited.partitions);

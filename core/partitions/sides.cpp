@@ -72,9 +72,11 @@ class Turns {
   double window() const { return window_; }  ///< mm
 
   /// Degrees at the start of half-edge `place`. An arc turns twice as much over twice the window, a
-  /// corner does not: what a window of no width would see is extrapolated.
+  /// corner does not: what a window of no width would see is extrapolated. It is not believed
+  /// beyond what the window itself sees, or zigzag would count twice.
   double at(std::size_t place) const {
-    return 2.0 * turn(place, window_) - turn(place, 2.0 * window_);
+    const double near = turn(place, window_);
+    return std::min(near, 2.0 * near - turn(place, 2.0 * window_));
   }
 
  private:

@@ -373,7 +373,8 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-// split_to_four_sides: {partitions: [ids], all that have more, or holes, where left out}
+// split_to_four_sides: {partitions: [ids], all that have more, or holes, where left out;
+// neighbours: whether partitions that get a fifth side by the cuts beside them are cut, too}
 
 /// Whether there may be a cut for it at all.
 bool wants_cuts(const Partition& partition, const Outline& outline) {
@@ -399,26 +400,52 @@ Result<json> resolve_four_sides(const Document& document, const json& given) {
   }
   ParameterReader reader("split_to_four_sides", with_list);
   read_partitions(reader, document, "partitions", "anchors", false);
+  reader.flag("neighbours", !given.contains("partitions"));
   return reader.finish();
 }
 
-/// Cuts one partition as four_sided_cuts() proposes it. The ids of its pieces; `obstacle`: why one
-/// of them keeps more than four sides.
-std::vector<std::uint32_t> split_one(Ground& ground, std::uint32_t id, std::string& obstacle) {
-  std::vector<std::uint32_t> pieces{id};
+/// What cutting one partition made of it.
+struct CutPartition {
+  std::vector<std::uint32_t> pieces;
+  std::string obstacle;        ///< Why one of them keeps more than four sides; empty: none does.
+  std::vector<VertexId> ends;  ///< Of the cuts.
+};
+
+CutPartition cut_to_four_sides(Ground& ground, std::uint32_t id) {
+  CutPartition result;
+  result.pieces.push_back(id);
   const std::uint32_t first_new = ground.next_id;
   const FourSidedPlan plan = four_sided_cuts(ground.mesh, ground.curvatures, ground.lines,
                                              ground.partitions, *ground.partitions.find(id));
-  obstacle = plan.obstacle;
+  result.obstacle = plan.obstacle;
   for (const FourSidedCut& cut : plan.cuts) {
     const Partition& piece =
         *ground.partitions.find(partition_along(ground.mesh, ground.partitions, cut.path));
     const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), piece, cut.path);
     const Partition fresh = ground.new_partition(piece.interval);
     ground.change(labelled(*part, fresh.id), {fresh});
+    for (const Path& stroke : cut.strokes)
+      result.ends.insert(result.ends.end(), {stroke.front(), stroke.back()});
   }
-  for (std::uint32_t piece = first_new; piece < ground.next_id; ++piece) pieces.push_back(piece);
-  return pieces;
+  for (std::uint32_t piece = first_new; piece < ground.next_id; ++piece)
+    result.pieces.push_back(piece);
+  return result;
+}
+
+/// Partitions at these vertices that may be cut to four sides, too.
+std::set<std::uint32_t> to_cut_at(const Ground& ground, const std::vector<VertexId>& vertices) {
+  std::set<std::uint32_t> ids;
+  for (const VertexId v : vertices)
+    ground.mesh.for_ring(v, [&](HalfEdgeId h) {
+      if (ground.mesh.face(h) != no_id) ids.insert(ground.partitions.label(ground.mesh.face(h)));
+    });
+  ids.erase(0);
+  std::erase_if(ids, [&](std::uint32_t id) {
+    const Partition& partition = *ground.partitions.find(id);
+    return !wants_cuts(partition,
+                       outline_of(ground.mesh, ground.lines, ground.partitions, partition));
+  });
+  return ids;
 }
 
 Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Round round) {
@@ -439,15 +466,17 @@ Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Roun
   for (int k = 0; k < rounds; ++k) {
     obstacles.clear();
     std::set<std::uint32_t> pieces;
+    std::vector<VertexId> ends;
     for (const std::uint32_t id : ids) {
-      std::string obstacle;
-      const std::vector<std::uint32_t> own = split_one(ground, id, obstacle);
-      pieces.insert(own.begin(), own.end());
-      if (!obstacle.empty()) obstacles[id] = obstacle;
+      const CutPartition cut = cut_to_four_sides(ground, id);
+      pieces.insert(cut.pieces.begin(), cut.pieces.end());
+      ends.insert(ends.end(), cut.ends.begin(), cut.ends.end());
+      if (!cut.obstacle.empty()) obstacles[id] = cut.obstacle;
     }
-    if (pieces.size() == ids.size()) break;
+    if (ends.empty()) break;
     any = true;
     ids = std::move(pieces);
+    if (parameters.at("neighbours")) ids.merge(to_cut_at(ground, ends));
   }
   std::string kept;
   if (!obstacles.empty()) {
