@@ -384,12 +384,7 @@ std::vector<WorkItem> many_border_items(const Document& document, const Worklist
     for (const BorderLoop& loop : outline.loops)
       for (const HalfEdgeId h : loop.half_edges) vertices.push_back(mesh.from(h));
     item.vertices = extremes(mesh, vertices);
-    const std::size_t holes = outline.loops.size() - 1;
-    item.sentence = "Partition " + std::to_string(partitions[k]->id) + " has " +
-                    std::to_string(sides) + (sides == 1 ? " side" : " sides") +
-                    (holes == 0   ? std::string()
-                     : holes == 1 ? std::string(" and a hole")
-                                  : " and " + std::to_string(holes) + " holes");
+    item.sentence = "Partition " + std::to_string(partitions[k]->id) + " has " + outline.text();
     items.push_back(std::move(item));
   }
   keep_largest(items, options.most_per_kind);

@@ -28,8 +28,8 @@ using Node = std::uint32_t;
 /// the border, so that a vertex at which the border touches itself is as many nodes as places.
 class InsideGraph {
  public:
-  InsideGraph(const PartitionGround& ground, const Curvatures& curvatures,
-              const Partition& partition, const Outline& outline, double curvature_weight)
+  InsideGraph(const PartitionGround& ground, const Curvatures& curvatures, std::uint32_t id,
+              const std::vector<FaceId>& faces, const Outline& outline, double curvature_weight)
       : mesh_(ground.mesh) {
     for (const BorderLoop& loop : outline.loops) {
       loop_start_.push_back(static_cast<Node>(vertices_.size()));
@@ -38,7 +38,7 @@ class InsideGraph {
     border_nodes_ = static_cast<Node>(vertices_.size());
     const auto own = [&](HalfEdgeId h) {
       const FaceId f = mesh_.face(h);
-      return f != no_id && ground.partitions.label(f) == partition.id;
+      return f != no_id && ground.partitions.label(f) == id;
     };
     // Which place of the border each half-edge out of a border vertex into the inside starts from.
     std::unordered_map<HalfEdgeId, Node> place_of;
@@ -63,7 +63,7 @@ class InsideGraph {
       if (fresh) vertices_.push_back(v);
       return it->second != no_id ? it->second : place_of.at(out);
     };
-    for (const FaceId f : faces_of(mesh_, ground.partitions, partition)) {
+    for (const FaceId f : faces) {
       HalfEdgeId h = mesh_.face_half_edge(f);
       for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
         if ((h & 1) != 0 || !own(Mesh::opposite(h)) || ground.lines.is_sharp(h >> 1)) continue;
@@ -87,14 +87,15 @@ class InsideGraph {
       const double bend = std::isnan(change) ? 0.0 : std::min(change * length, 1.0);
       // At least 1: only where a path starts does it cost nothing.
       const double cost = length * unit * (1.0 + curvature_weight * bend);
-      arcs_.push_back({link.to, static_cast<Cost>(std::max<std::int64_t>(std::llround(cost), 1))});
+      arcs_.push_back(
+          {link.to, static_cast<Cost>(std::max<std::int64_t>(std::llround(cost), 1)), length});
     }
     // A sharp line inside is not to be crossed, at its vertices either.
     closed_.assign(vertices_.size(), false);
     if (!ground.lines.edges.empty())
       for (Node k = border_nodes_; k < vertices_.size(); ++k)
         closed_[k] = !sharp_edges_at(mesh_, ground.lines, vertices_[k]).empty();
-    reached_.assign(vertices_.size(), {no_cost, no_id, false});
+    reached_.resize(vertices_.size());
   }
 
   /// Where cuts to a place of the border end: there, or where that lies in one face only, an ear
@@ -139,6 +140,7 @@ class InsideGraph {
   }
   bool has_reached(Node k) const { return reached_[k].done; }
   Cost cost_to(Node k) const { return reached_[k].done ? reached_[k].cost : no_cost; }
+  double length_to(Node k) const { return reached_[k].length; }  ///< mm
   std::vector<Node> path_to(Node k) const {
     std::vector<Node> path;
     for (; k != no_id; k = reached_[k].by) path.push_back(k);
@@ -164,13 +166,15 @@ class InsideGraph {
 
  private:
   struct Reached {
-    Cost cost;
-    Node by;
-    bool done;
+    Cost cost = no_cost;
+    double length = 0.0;
+    Node by = no_id;
+    bool done = false;
   };
   struct Arc {
     Node to;
     Cost cost;
+    double length;
   };
 
   bool opens(Node k) const {
@@ -181,12 +185,12 @@ class InsideGraph {
 
   template <class Weigh, class Done>
   void run(const std::vector<Node>& sources, const Weigh& weigh, const Done& done) {
-    for (const Node k : touched_) reached_[k] = {no_cost, no_id, false};
+    for (const Node k : touched_) reached_[k] = {};
     touched_ = sources;
     using Entry = std::pair<Cost, Node>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Node k : sources) {
-      reached_[k] = {0, no_id, false};
+      reached_[k] = {0, 0.0, no_id, false};
       queue.emplace(0, k);
     }
     while (!queue.empty()) {
@@ -199,13 +203,13 @@ class InsideGraph {
         continue;
       }
       for (std::size_t arc = starts_[k]; arc < starts_[k + 1]; ++arc) {
-        const auto [to, more] = arcs_[arc];
+        const auto& [to, more, length] = arcs_[arc];
         Reached& there = reached_[to];
         if (there.done || closed_[to]) continue;
         const Cost next = cost + weigh(to, more);
         if (next > there.cost || (next == there.cost && k >= there.by)) continue;
         if (there.cost == no_cost) touched_.push_back(to);
-        there = {next, k, false};
+        there = {next, reached_[k].length + length, k, false};
         queue.emplace(next, to);
       }
     }
@@ -281,6 +285,13 @@ Cost weighed(Cost path_cost, double length, double arc, const FourSidedOptions& 
       std::llround(static_cast<double>(path_cost) * (1.0 + options.balance * q / (1.0 - q))));
 }
 
+/// The path of the last search to a node.
+Candidate candidate(const InsideGraph& graph, Node end, Cost cost) {
+  Candidate result{cost, graph.path_to(end), {}};
+  result.ends = std::minmax(graph.vertex(result.path.front()), graph.vertex(result.path.back()));
+  return result;
+}
+
 /// The cheapest decomposition of a disc into pieces of three or four sides by cuts between corners.
 class CornerCuts {
  public:
@@ -304,12 +315,9 @@ class CornerCuts {
           if (i == j || are_neighbours(i, j)) return false;
           std::optional<Candidate>& cut = cuts_[std::min(i, j) * n_ + std::max(i, j)];
           if (!cut) {
-            Candidate way{0, graph.path_to(k), {}};
-            const std::vector<VertexId> vertices = graph.vertices(way.path);
-            way.ends = std::minmax(vertices.front(), vertices.back());
-            way.cost = weighed(graph.cost_to(k), graph.length(vertices),
-                               arcs.between(loop.corners[i], loop.corners[j]), options);
-            cut = std::move(way);
+            cut = candidate(graph, k,
+                            weighed(graph.cost_to(k), graph.length_to(k),
+                                    arcs.between(loop.corners[i], loop.corners[j]), options));
           }
           return ++found >= partners;
         });
@@ -404,20 +412,20 @@ std::vector<Candidate> side_cuts(const Mesh& mesh, InsideGraph& graph, const Bor
     // The best end on each side.
     for (std::size_t side = 0; side < n; ++side) {
       if (side == i || (side + 1) % n == i) continue;
-      std::optional<Candidate> best;
+      Cost least = no_cost;
+      Node best = no_id;
       const std::size_t size = loop.half_edges.size();
       for (std::size_t k = (loop.corners[side] + 1) % size; k != loop.corners[(side + 1) % n];
            k = (k + 1) % size) {
         const Node end = graph.node(0, k);
         if (!graph.has_reached(end) || graph.cost_to(end) == 0) continue;
-        Candidate way{0, graph.path_to(end), {}};
-        const std::vector<VertexId> vertices = graph.vertices(way.path);
-        way.ends = std::minmax(vertices.front(), vertices.back());
-        way.cost = weighed(graph.cost_to(end), graph.length(vertices),
-                           arcs.between(loop.corners[i], k), options);
-        if (way.cost < no_cost && (!best || way < *best)) best = std::move(way);
+        const Cost cost = weighed(graph.cost_to(end), graph.length_to(end),
+                                  arcs.between(loop.corners[i], k), options);
+        if (cost >= least) continue;
+        least = cost;
+        best = end;
       }
-      if (best) result.push_back(std::move(*best));
+      if (best != no_id) result.push_back(candidate(graph, best, least));
     }
   }
   std::sort(result.begin(), result.end());
@@ -426,8 +434,7 @@ std::vector<Candidate> side_cuts(const Mesh& mesh, InsideGraph& graph, const Bor
 
 /// Two paths from the outer loop to the hole.
 struct HoleCuts {
-  Cost cost;
-  std::array<std::size_t, 2> from, to;  // places on the loops
+  std::array<std::size_t, 2> to;  // places on the hole
   std::array<std::vector<Node>, 2> paths;
 };
 
@@ -446,14 +453,14 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
     for (std::size_t k = 0; k < corners.size(); k += step)
       for (const Node door : graph.doors(loop, corners[k]))
         ends[loop].push_back({door - graph.node(loop, 0), true});
-    for (const std::size_t place : arcs[loop].spread(options.hole_ends))
+    // Corners may all lie on one side of the loop.
+    for (const std::size_t place : arcs[loop].spread(options.hole_ends / 2))
       if (!std::binary_search(corners.begin(), corners.end(), place))
         ends[loop].push_back({place, false});
   }
   struct Way {
     std::size_t from, to;
     double cost;
-    std::vector<Node> path;
   };
   std::vector<Way> ways;
   for (const End& from : ends[0]) {
@@ -466,7 +473,7 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
       double cost = static_cast<double>(graph.cost_to(end));
       if (!from.is_corner && outline.loops[0].corners.size() >= 2) cost *= beside_corners;
       if (!to.is_corner && outline.loops[1].corners.size() >= 2) cost *= beside_corners;
-      ways.push_back({from.place, to.place, cost, graph.path_to(end)});
+      ways.push_back({from.place, to.place, cost});
     }
   }
   struct Pair {
@@ -487,14 +494,17 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
     }
   std::sort(pairs.begin(), pairs.end());
   std::vector<HoleCuts> result;
-  constexpr std::size_t most = 16;
-  for (const Pair& pair : pairs) {
-    const Way &a = ways[pair.a], &b = ways[pair.b];
-    if (std::ranges::any_of(a.path,
-                            [&](Node k) { return std::ranges::find(b.path, k) != b.path.end(); }))
-      continue;
-    result.push_back({pair.cost, {a.from, b.from}, {a.to, b.to}, {a.path, b.path}});
-    if (result.size() == most) break;
+  constexpr std::size_t most = 8, most_looked_at = 32;
+  for (std::size_t k = 0; k < pairs.size() && k < most_looked_at && result.size() < most; ++k) {
+    HoleCuts cuts;
+    const std::array<const Way*, 2> two{&ways[pairs[k].a], &ways[pairs[k].b]};
+    for (std::size_t way = 0; way < 2; ++way) {
+      cuts.to[way] = two[way]->to;
+      cuts.paths[way] =
+          graph.straight_path(graph.node(0, two[way]->from), graph.node(1, two[way]->to));
+    }
+    const auto& [one, other] = cuts.paths;
+    if (std::ranges::find_first_of(one, other) == one.end()) result.push_back(std::move(cuts));
   }
   return result;
 }
@@ -510,7 +520,8 @@ class Planner {
         options_(options),
         now_(partitions),
         next_id_(now_.partitions.back()->id + 1) {
-    outlines_[partition.id] = outline(now_, partition.id);
+    faces_[partition.id] = faces_of(mesh, partitions, partition);
+    outlines_[partition.id] = outline(now_, partition.id, faces_[partition.id]);
     open_.push_back(partition.id);
   }
 
@@ -523,7 +534,7 @@ class Planner {
       }
       // A cut that ends in a side of another piece gave that one a corner more.
       for (auto& [id, own] : outlines_) {
-        own = outline(now_, id);
+        own = outline(now_, id, faces_[id]);
         if (!own.is_four_sided() && !given_up_.contains(id)) open_.push_back(id);
       }
     } while (!open_.empty());
@@ -545,8 +556,9 @@ class Planner {
 
   /// Means of partitions are of no interest here, so that any values do.
   PartitionGround ground() const { return {mesh_, curvatures_.kabs, lines_, now_}; }
-  Outline outline(const Partitions& partitions, std::uint32_t id) const {
-    return outline_of(mesh_, lines_, partitions, *partitions.find(id), options_.sides);
+  Outline outline(const Partitions& partitions, std::uint32_t id,
+                  const std::vector<FaceId>& faces) const {
+    return outline_of(mesh_, lines_, partitions, id, faces, options_.sides);
   }
 
   static std::string why_not(const Outline& outline) {
@@ -560,18 +572,11 @@ class Planner {
   /// True where at least one cut was made.
   bool cut(std::uint32_t id) {
     if (outlines_.at(id).loops.empty() || outlines_.at(id).handles > 0) return false;
-    const Partition piece = *now_.find(id);
     const Outline own = outlines_.at(id);
-    InsideGraph graph(ground(), curvatures_, piece, own, options_.curvature);
+    InsideGraph graph(ground(), curvatures_, id, faces_.at(id), own, options_.curvature);
     if (own.loops.size() > 1) {
-      for (const HoleCuts& pair : hole_cuts(mesh_, graph, own, options_)) {
-        HoleCuts straight = pair;
-        for (std::vector<Node>& path : straight.paths)
-          path = graph.straight_path(path.front(), path.back());
-        const auto& [one, other] = straight.paths;
-        const bool meet = std::ranges::find_first_of(one, other) != one.end();
-        if (try_cut(joined(graph, own.loops[1], meet ? pair : straight))) return true;
-      }
+      for (const HoleCuts& pair : hole_cuts(mesh_, graph, own, options_))
+        if (try_cut(joined(graph, own.loops[1], pair))) return true;
       return false;
     }
     CornerCuts corners(mesh_, graph, own.loops[0], options_);
@@ -660,31 +665,23 @@ class Planner {
     FaceLabels labels;
     for (const FaceId f : *part) labels.emplace_back(f, fresh.id);
     EditedPartitions edited = edit_partitions(ground(), labels, {fresh}, next_id);
+    // Whatever was parted keeps the faces with its label.
+    std::map<std::uint32_t, std::vector<FaceId>> faces;
+    for (const FaceId f : faces_.at(id)) faces[edited.partitions.label(f)].push_back(f);
     std::map<std::uint32_t, Outline> pieces;
     Excess after{0, 0};
-    std::vector<std::uint32_t> ids{id};
-    for (std::uint32_t k = next_id_; k < next_id; ++k) ids.push_back(k);
-    for (const std::uint32_t k : ids) {
-      if (!edited.partitions.find(k)) continue;
-      pieces[k] = outline(edited.partitions, k);
+    for (const auto& [k, own] : faces) {
+      pieces[k] = outline(edited.partitions, k, own);
       const Excess excess = excess_of(pieces[k]);
       after.first += excess.first;
       after.second += excess.second;
-    }
-    if (std::getenv("D")) {
-      std::fprintf(stderr, "  try len %g excess %zu,%zu -> %zu,%zu :",
-                   cut.length / mesh_.mean_edge_length(), excess_of(known->second).first,
-                   excess_of(known->second).second, after.first, after.second);
-      for (auto& [k, o] : pieces)
-        std::fprintf(stderr, " %zu(%u f, L %g)", o.sides(), edited.partitions.find(k)->faces,
-                     o.loops[0].length / mesh_.mean_edge_length());
-      std::fprintf(stderr, "\n");
     }
     if (!(after < excess_of(known->second))) return false;
     now_ = std::move(edited.partitions);
     next_id_ = next_id;
     for (auto& [k, own] : pieces) {
       outlines_[k] = std::move(own);
+      faces_[k] = std::move(faces[k]);
       if (std::ranges::find(open_, k) == open_.end()) open_.push_back(k);
     }
     plan_.cuts.push_back(std::move(cut));
@@ -697,7 +694,8 @@ class Planner {
   const FourSidedOptions& options_;
   Partitions now_;
   std::uint32_t next_id_;
-  std::map<std::uint32_t, Outline> outlines_;  // of the pieces
+  std::map<std::uint32_t, Outline> outlines_;           // of the pieces
+  std::map<std::uint32_t, std::vector<FaceId>> faces_;  // of the pieces, ascending
   std::vector<std::uint32_t> open_;
   std::set<std::uint32_t> given_up_;
   FourSidedPlan plan_;

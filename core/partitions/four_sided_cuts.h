@@ -24,7 +24,8 @@ struct FourSidedOptions {
   double longest = 0.9;  ///< Highest c / b of a cut; a corner of 120 degrees cut off has 0.87.
   /// Other corners looked at from each, the nearest first; all of them where these do not do.
   std::size_t partners = 12;
-  std::size_t hole_ends = 16;  ///< Ends looked at on each loop for the cuts to a hole.
+  /// Corners looked at on each loop for the cuts to a hole, and half as many places between them.
+  std::size_t hole_ends = 12;
 };
 
 /// One cut: what cut_off() takes, and what it draws.

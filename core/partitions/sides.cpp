@@ -32,6 +32,12 @@ class Borders {
   bool is_border_of(std::uint32_t id, HalfEdgeId h) const {
     return label_of(h) == id && label_of(Mesh::opposite(h)) != id;
   }
+  /// Whether all faces round the vertex belong to the partition.
+  bool is_inner(std::uint32_t id, VertexId v) const {
+    bool inner = true;
+    mesh_.for_ring(v, [&](HalfEdgeId h) { inner = inner && label_of(h) == id; });
+    return inner;
+  }
   /// The border half-edge after h, round the faces of the partition on its left.
   HalfEdgeId following(HalfEdgeId h) const {
     const std::uint32_t id = label_of(h);
@@ -198,35 +204,41 @@ std::size_t Outline::sides() const {
   return sum;
 }
 
+std::string Outline::text() const {
+  const auto counted = [](std::size_t n, const std::string& what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  const std::string own = counted(sides(), "side");
+  return loops.size() <= 1 ? own : own + " and " + counted(loops.size() - 1, "hole");
+}
+
 Outline outline_of(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
                    const Partition& partition, const SideOptions& options) {
+  return outline_of(mesh, lines, partitions, partition.id, faces_of(mesh, partitions, partition),
+                    options);
+}
+
+Outline outline_of(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
+                   std::uint32_t id, const std::vector<FaceId>& faces, const SideOptions& options) {
   const Borders borders(mesh, lines, partitions);
-  const std::vector<FaceId> faces = faces_of(mesh, partitions, partition);
   std::vector<HalfEdgeId> border;
-  std::vector<VertexId> vertices, on_border;
+  std::size_t inner_vertices = 0;
   for (const FaceId f : faces) {
     HalfEdgeId h = mesh.face_half_edge(f);
     for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
-      vertices.push_back(mesh.from(h));
-      if (!borders.is_border_of(partition.id, h)) continue;
-      border.push_back(h);
-      on_border.push_back(mesh.from(h));
+      if (borders.is_border_of(id, h)) border.push_back(h);
+      // Each vertex is met once by the half-edge that stands for it.
+      if (mesh.half_edge(mesh.from(h)) == h) inner_vertices += borders.is_inner(id, mesh.from(h));
     }
   }
-  const auto make_unique = [](auto& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  };
-  make_unique(border);
-  make_unique(vertices);
-  make_unique(on_border);
+  std::sort(border.begin(), border.end());
   Outline outline;
   std::unordered_set<HalfEdgeId> seen;
   for (const HalfEdgeId h : border)
     if (!seen.contains(h))
       outline.loops.push_back(
           loop_through(mesh, borders, h, options, [&](HalfEdgeId x) { seen.insert(x); }));
-  complete(mesh, outline, faces.size(), vertices.size() - on_border.size());
+  complete(mesh, outline, faces.size(), inner_vertices);
   return outline;
 }
 
@@ -246,11 +258,9 @@ std::vector<Outline> outlines_of(const Mesh& mesh, const SharpLines& lines,
   }
   std::vector<std::size_t> inner(outlines.size(), 0);
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.is_isolated(v) || mesh.is_border(v)) continue;
+    if (mesh.is_isolated(v)) continue;
     const std::uint32_t id = borders.label_of(mesh.half_edge(v));
-    bool alone = id != 0;
-    mesh.for_ring(v, [&](HalfEdgeId h) { alone = alone && borders.label_of(h) == id; });
-    if (alone) ++inner[place.at(id)];
+    if (id != 0 && borders.is_inner(id, v)) ++inner[place.at(id)];
   }
   for (std::size_t k = 0; k < outlines.size(); ++k)
     complete(mesh, outlines[k], partitions.partitions[k]->faces, inner[k]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -46,6 +47,7 @@ struct Outline {
 
   /// Of all loops; 0 for a partition that is closed.
   std::size_t sides() const;
+  std::string text() const;  ///< "6 sides and 2 holes"
   /// One loop of at most four sides round a disc: what a four-sided patch covers.
   bool is_four_sided() const {
     return loops.size() == 1 && handles == 0 && loops.front().sides() <= 4;
@@ -61,6 +63,10 @@ struct Outline {
 /// first.
 Outline outline_of(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
                    const Partition& partition, const SideOptions& options = {});
+/// The same where the faces of the partition are known.
+Outline outline_of(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
+                   std::uint32_t id, const std::vector<FaceId>& faces,
+                   const SideOptions& options = {});
 
 /// Those of all partitions, in their order, in one pass over the mesh.
 std::vector<Outline> outlines_of(const Mesh& mesh, const SharpLines& lines,

@@ -655,7 +655,7 @@ TEST(WorklistOfSides, SaysWhatCannotBeCutAndWhatIsLocked) {
       if (item.kind == WorkKind::many_borders) return item.sentence;
     return std::string();
   };
-  EXPECT_NE(sentence(tube).find("a hole; 2 cuts of"), std::string::npos) << sentence(tube);
+  EXPECT_NE(sentence(tube).find("1 hole; 2 cuts of"), std::string::npos) << sentence(tube);
   const Document locked = applied(tube, {"lock", {{"partitions", {1u}}}});
   EXPECT_NE(sentence(locked).find("locked"), std::string::npos) << sentence(locked);
   EXPECT_EQ(sentence(labelled(icosphere(5.0, 3), [](const Point&) { return 1; })), "")

@@ -459,35 +459,45 @@ Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Roun
     else
       ids.insert(partition->id);
   if (partitions.empty()) return fail(outcome.adapted);
-  // A cut may end in a side of a partition that was cut before, which thereby gets a corner more.
+  // A cut may end in a side of another piece or partition, which thereby gets a corner more.
   constexpr int rounds = 4;
-  std::map<std::uint32_t, std::string> obstacles;
+  std::map<std::uint32_t, std::string> why;  // of pieces of partitions that do not come out whole
+  std::set<std::uint32_t> all = ids, settled;
   bool any = false;
-  for (int k = 0; k < rounds; ++k) {
-    obstacles.clear();
-    std::set<std::uint32_t> pieces;
+  for (int k = 0; k < rounds && !ids.empty(); ++k) {
     std::vector<VertexId> ends;
     for (const std::uint32_t id : ids) {
       const CutPartition cut = cut_to_four_sides(ground, id);
-      pieces.insert(cut.pieces.begin(), cut.pieces.end());
+      all.insert(cut.pieces.begin(), cut.pieces.end());
       ends.insert(ends.end(), cut.ends.begin(), cut.ends.end());
-      if (!cut.obstacle.empty()) obstacles[id] = cut.obstacle;
+      if (cut.ends.empty()) settled.insert(id);
+      for (const std::uint32_t piece : cut.pieces) why[piece] = cut.obstacle;
     }
-    if (ends.empty()) break;
-    any = true;
-    ids = std::move(pieces);
-    if (parameters.at("neighbours")) ids.merge(to_cut_at(ground, ends));
+    any = any || !ends.empty();
+    ids = to_cut_at(ground, ends);
+    std::erase_if(ids, [&](std::uint32_t id) {
+      return settled.contains(id) || !(parameters.at("neighbours") || all.contains(id));
+    });
   }
   std::string kept;
-  if (!obstacles.empty()) {
-    const auto& [id, obstacle] = *obstacles.begin();
-    kept = "Partition " + std::to_string(id) + " keeps more than four sides: " + obstacle + ".";
-    if (obstacles.size() > 1) kept += " So do " + std::to_string(obstacles.size() - 1) + " more.";
+  std::size_t more = 0;
+  for (const std::uint32_t id : all) {
+    const Outline outline =
+        outline_of(ground.mesh, ground.lines, ground.partitions, *ground.partitions.find(id));
+    if (outline.is_four_sided()) continue;
+    if (!kept.empty()) {
+      ++more;
+      continue;
+    }
+    kept = "Partition " + std::to_string(id) + " is left with " + outline.text();
+    if (const std::string& obstacle = why[id]; !obstacle.empty()) kept += ": " + obstacle;
+    kept += ".";
   }
+  if (more > 0) kept += " " + std::to_string(more) + " more are like it.";
   if (!any && !kept.empty()) return fail(kept);
   if (!any && round == Round::first)
-    return fail(ids.size() == 1
-                    ? "Partition " + std::to_string(*ids.begin()) +
+    return fail(all.size() == 1
+                    ? "Partition " + std::to_string(*all.begin()) +
                           " has at most four sides already: nothing to cut."
                     : std::string("These partitions have at most four sides already: nothing to "
                                   "cut."));
