@@ -135,7 +135,8 @@ class InsideGraph {
       return static_cast<Cost>(
           std::llround(static_cast<double>(cost) * (1.0 + away_from_straight * away)));
     };
-    run({from}, straightened, [&](Node k) { return k == to; });
+    run(
+        {from}, straightened, [&](Node k) { return k == to; }, to);
     return has_reached(to) ? path_to(to) : std::vector<Node>();
   }
   bool has_reached(Node k) const { return reached_[k].done; }
@@ -183,21 +184,31 @@ class InsideGraph {
     return false;
   }
 
+  /// `towards`: the one node that is looked for; what is certain of the way to it, the straight
+  /// one, leads the search (A*).
   template <class Weigh, class Done>
-  void run(const std::vector<Node>& sources, const Weigh& weigh, const Done& done) {
+  void run(const std::vector<Node>& sources, const Weigh& weigh, const Done& done,
+           Node towards = no_id) {
+    const double unit = cost_unit / mesh_.mean_edge_length() * (1.0 - 1e-9);
+    const auto ahead = [&](Node k) {
+      if (towards == no_id) return Cost{0};
+      const Point way = mesh_.point(vertices_[towards]) - mesh_.point(vertices_[k]);
+      return static_cast<Cost>(way.norm() * unit);
+    };
     for (const Node k : touched_) reached_[k] = {};
     touched_ = sources;
     using Entry = std::pair<Cost, Node>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Node k : sources) {
       reached_[k] = {0, 0.0, no_id, false};
-      queue.emplace(0, k);
+      queue.emplace(ahead(k), k);
     }
     while (!queue.empty()) {
-      const auto [cost, k] = queue.top();
+      const Node k = queue.top().second;
       queue.pop();
       if (reached_[k].done) continue;
       reached_[k].done = true;
+      const Cost cost = reached_[k].cost;
       if (cost > 0 && k < border_nodes_) {
         if (done(k)) return;
         continue;
@@ -210,7 +221,7 @@ class InsideGraph {
         if (next > there.cost || (next == there.cost && k >= there.by)) continue;
         if (there.cost == no_cost) touched_.push_back(to);
         there = {next, reached_[k].length + length, k, false};
-        queue.emplace(next, to);
+        queue.emplace(next + ahead(to), to);
       }
     }
   }
@@ -305,7 +316,8 @@ class CornerCuts {
       doors.push_back(graph.doors(0, loop.corners[k]));
       for (const Node door : doors.back()) corner_of.try_emplace(door, k);
     }
-    for (const std::size_t partners : {options.partners, n_}) {
+    constexpr std::size_t more = 4;
+    for (const std::size_t partners : {options.partners, more * options.partners, n_}) {
       for (std::size_t i = 0; i < n_; ++i) {
         std::size_t found = 0;
         graph.search(doors[i], [&](Node k) {
