@@ -83,8 +83,9 @@ class InsideGraph {
       const double length = mesh_.edge_length(link.by >> 1);
       const double change = std::abs(std::sqrt(curvature_at(curvatures, vertices_[link.to])) -
                                      std::sqrt(curvature_at(curvatures, vertices_[link.from])));
-      // Undefined on the border and infinite nowhere; noise is not to make a wall of an edge.
-      const double bend = std::isnan(change) ? 0.0 : std::min(change * length, 1.0);
+      // Undefined on the border. Squared, so that noise does not send a cut round every bump.
+      const double bend =
+          std::isnan(change) ? 0.0 : std::min(change * change * length * length, 1.0);
       // At least 1: only where a path starts does it cost nothing.
       const double cost = length * unit * (1.0 + curvature_weight * bend);
       arcs_.push_back(
@@ -423,7 +424,9 @@ std::vector<Candidate> side_cuts(const Mesh& mesh, InsideGraph& graph, const Bor
     graph.search(graph.doors(0, loop.corners[i]), [](Node) { return false; });
     // The best end on each side.
     for (std::size_t side = 0; side < n; ++side) {
-      if (side == i || (side + 1) % n == i) continue;
+      // Pieces of that many sides, of n + 3 in all: no use where one of them has n again.
+      const std::size_t sides = (side + n - i) % n + 2;
+      if (sides < 4 || sides > n - 1) continue;
       Cost least = no_cost;
       Node best = no_id;
       const std::size_t size = loop.half_edges.size();
