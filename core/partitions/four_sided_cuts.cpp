@@ -79,15 +79,14 @@ class InsideGraph {
     for (const Link& link : links) ++starts_[link.from + 1];
     for (std::size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
     const double unit = cost_unit / mesh_.mean_edge_length();
+    const auto bend_at = [&](Node k) { return std::sqrt(curvatures.kabs[vertices_[k]]); };
     for (const Link& link : links) {
       const double length = mesh_.edge_length(link.by >> 1);
-      const double change = std::abs(std::sqrt(curvature_at(curvatures, vertices_[link.to])) -
-                                     std::sqrt(curvature_at(curvatures, vertices_[link.from])));
+      const double change = (bend_at(link.to) - bend_at(link.from)) * length;
       // Undefined on the border. Squared, so that noise does not send a cut round every bump.
-      const double bend =
-          std::isnan(change) ? 0.0 : std::min(change * change * length * length, 1.0);
+      const double unevenness = std::isnan(change) ? 0.0 : std::min(change * change, 1.0);
       // At least 1: only where a path starts does it cost nothing.
-      const double cost = length * unit * (1.0 + curvature_weight * bend);
+      const double cost = length * unit * (1.0 + curvature_weight * unevenness);
       arcs_.push_back(
           {link.to, static_cast<Cost>(std::max<std::int64_t>(std::llround(cost), 1)), length});
     }
@@ -227,10 +226,6 @@ class InsideGraph {
     }
   }
 
-  static double curvature_at(const Curvatures& curvatures, VertexId v) {
-    return curvatures.kabs[v];
-  }
-
   const Mesh& mesh_;
   std::vector<VertexId> vertices_;  // of the nodes; those of the border come first
   std::vector<Node> loop_start_;
@@ -252,7 +247,6 @@ class Arcs {
       s += mesh.edge_length(h >> 1);
     }
   }
-  double along(std::size_t place) const { return along_[place]; }
   /// The shorter way between two places.
   double between(std::size_t a, std::size_t b) const {
     const double apart = std::abs(along_[a] - along_[b]);
@@ -327,11 +321,10 @@ class CornerCuts {
           const std::size_t j = corner->second;
           if (i == j || are_neighbours(i, j)) return false;
           std::optional<Candidate>& cut = cuts_[std::min(i, j) * n_ + std::max(i, j)];
-          if (!cut) {
+          if (!cut)
             cut = candidate(graph, k,
                             weighed(graph.cost_to(k), graph.length_to(k),
                                     arcs.between(loop.corners[i], loop.corners[j]), options));
-          }
           return ++found >= partners;
         });
       }
@@ -519,7 +512,8 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
           graph.straight_path(graph.node(0, two[way]->from), graph.node(1, two[way]->to));
     }
     const auto& [one, other] = cuts.paths;
-    if (std::ranges::find_first_of(one, other) == one.end()) result.push_back(std::move(cuts));
+    if (!one.empty() && !other.empty() && std::ranges::find_first_of(one, other) == one.end())
+      result.push_back(std::move(cuts));
   }
   return result;
 }
@@ -553,7 +547,6 @@ class Planner {
         if (!own.is_four_sided() && !given_up_.contains(id)) open_.push_back(id);
       }
     } while (!open_.empty());
-    if (std::getenv("D")) std::fprintf(stderr, "plan end\n");
     for (const std::uint32_t id : given_up_)
       if (const Outline& own = outlines_.at(id); !own.is_four_sided() && plan_.obstacle.empty())
         plan_.obstacle = why_not(own);

@@ -14,8 +14,9 @@ namespace arris {
 
 struct FourSidedOptions {
   SideOptions sides;
-  /// An edge costs so many times its length more where the curvature changes along it by as much as
-  /// an arc of the edge's own length has: cuts keep to where the surface is even.
+  /// An edge costs so many times its length more where the bend of the surface (the root of Kabs,
+  /// times the length of the edge) changes along it by 1, and less as the square of that: cuts keep
+  /// to where the surface is even.
   double curvature = 1.0;
   /// A cut of length c off a border of length b (the shorter way round between its ends) costs
   /// 1 + balance q / (1 - q) times more, q = (c / b)^2: short beside what it cuts off on both
