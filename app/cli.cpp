@@ -24,6 +24,7 @@
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
+#include "core/partitions/sides.h"
 #include "core/samples/mould.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/normal_noise.h"
@@ -121,8 +122,20 @@ nlohmann::json summary_of(const History& history) {
                       {"convex", convex},
                       {"concave", document.lines.lines.size() - convex},
                       {"closed", closed}};
-  summary["partitions"] = {{"count", document.partitions.partitions.size()},
-                           {"assigned_area_share", assigned_share(document)}};
+  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
+  const std::vector<Outline> outlines =
+      outlines_of(*document.mesh, document.lines, document.partitions);
+  std::size_t four_sided = 0;
+  nlohmann::json sides = nlohmann::json::object();
+  for (std::size_t k = 0; k < outlines.size(); ++k) {
+    four_sided += outlines[k].is_four_sided();
+    sides[std::to_string(partitions[k]->id)] = outlines[k].sides();
+  }
+  summary["partitions"] = {{"count", partitions.size()},
+                           {"assigned_area_share", assigned_share(document)},
+                           {"four_sided", four_sided},
+                           {"four_sided_share", four_sided_share(document.partitions, outlines)},
+                           {"sides", sides}};
   std::map<std::string, std::size_t> types;
   for (const BoundaryPtr& boundary : *document.boundaries)
     ++types[std::string(name_of(boundary->type))];
@@ -159,7 +172,9 @@ void print_outcome(const std::string& folder, const nlohmann::json& summary) {
   std::cout << summary["lines"]["count"] << " lines, " << summary["partitions"]["count"]
             << " partitions ("
             << fixed_text(100.0 * summary["partitions"]["assigned_area_share"].get<double>(), 1)
-            << " % of the area) written to " << folder << "\n";
+            << " % of the area, "
+            << fixed_text(100.0 * summary["partitions"]["four_sided_share"].get<double>(), 1)
+            << " % of that four-sided) written to " << folder << "\n";
 }
 
 int info(const std::string& scan, bool as_json) {

@@ -16,7 +16,7 @@ constexpr const char* version_key = "version";
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 28> table{open_operation,
+  static const std::array<OperationKind, 29> table{open_operation,
                                                    flip_orientation_operation,
                                                    delete_faces_operation,
                                                    simplify_operation,
@@ -40,6 +40,7 @@ std::span<const OperationKind> operation_table() {
                                                    restart_partitions_operation,
                                                    recompute_partitions_operation,
                                                    split_partition_operation,
+                                                   split_to_four_sides_operation,
                                                    paint_partition_operation,
                                                    smooth_boundaries_operation,
                                                    lock_operation,

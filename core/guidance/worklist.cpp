@@ -14,6 +14,8 @@
 #include "core/guidance/leaks.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
+#include "core/partitions/four_sided_cuts.h"
+#include "core/partitions/sides.h"
 #include "core/sharp_lines/sharp_lines.h"
 
 namespace arris {
@@ -311,26 +313,23 @@ std::vector<WorkItem> unassigned_items(const Document& document) {
 }
 
 /// What the borderlines of a partition add up to.
-struct Outline {
-  std::size_t count = 0;
+struct BorderExtent {
   double length = 0.0;
   std::vector<VertexId> vertices;
 };
 
 void add_boundary_items(const Document& document, const WorklistOptions& options,
-                        std::vector<WorkItem>& undefined, std::vector<WorkItem>& many,
-                        std::vector<WorkItem>& slivers) {
+                        std::vector<WorkItem>& undefined, std::vector<WorkItem>& slivers) {
   const Mesh& mesh = *document.mesh;
-  std::unordered_map<std::uint32_t, Outline> outlines;
+  std::unordered_map<std::uint32_t, BorderExtent> extents;
   for (const BoundaryPtr& derived : *document.boundaries) {
     const Boundary& boundary = *derived;
     for (const std::uint32_t id : {boundary.left, boundary.right}) {
       if (id == 0 || boundary.left == boundary.right) continue;
-      Outline& outline = outlines[id];
-      ++outline.count;
-      outline.length += boundary.length;
-      outline.vertices.insert(outline.vertices.end(), boundary.vertices.begin(),
-                              boundary.vertices.end());
+      BorderExtent& extent = extents[id];
+      extent.length += boundary.length;
+      extent.vertices.insert(extent.vertices.end(), boundary.vertices.begin(),
+                             boundary.vertices.end());
     }
     if (boundary.type != BoundaryType::undefined) continue;
     WorkItem item;
@@ -343,31 +342,84 @@ void add_boundary_items(const Document& document, const WorklistOptions& options
     undefined.push_back(std::move(item));
   }
   for (const PartitionPtr& partition : document.partitions.partitions) {
-    const auto found = outlines.find(partition->id);
-    if (found == outlines.end()) continue;
-    const Outline& outline = found->second;
-    WorkItem item;
-    item.partitions = {partition->id};
-    item.vertices = extremes(mesh, outline.vertices);
-    const std::string name = "Partition " + std::to_string(partition->id);
-    if (outline.count > static_cast<std::size_t>(std::max(options.most_borderlines, 0))) {
-      item.kind = WorkKind::many_borders;
-      item.size = static_cast<double>(outline.count);
-      item.sentence = name + " has " + std::to_string(outline.count) + " borderlines.";
-      many.push_back(item);
-    }
+    const auto found = extents.find(partition->id);
+    if (found == extents.end()) continue;
+    const BorderExtent& extent = found->second;
     // A strip of width w and length l, l >> w, has the area w l and the outline 2 l.
-    const double width = 2.0 * partition->area / outline.length;
-    const double length = outline.length / 2.0;
-    if (width < options.sliver_width * mesh.mean_edge_length() &&
-        length > options.sliver_ratio * width) {
-      item.kind = WorkKind::sliver;
-      item.size = length / width;
-      item.sentence =
-          name + " is only about " + mm_text(width) + " wide over " + mm_text(length) + ".";
-      slivers.push_back(std::move(item));
-    }
+    const double width = 2.0 * partition->area / extent.length;
+    const double length = extent.length / 2.0;
+    if (width >= options.sliver_width * mesh.mean_edge_length() ||
+        length <= options.sliver_ratio * width)
+      continue;
+    WorkItem item;
+    item.kind = WorkKind::sliver;
+    item.size = length / width;
+    item.partitions = {partition->id};
+    item.vertices = extremes(mesh, extent.vertices);
+    item.sentence = "Partition " + std::to_string(partition->id) + " is only about " +
+                    mm_text(width) + " wide over " + mm_text(length) + ".";
+    slivers.push_back(std::move(item));
   }
+}
+
+/// Partitions that no four-sided patch covers, each with the cuts that would mend it.
+std::vector<WorkItem> many_border_items(const Document& document, const WorklistOptions& options,
+                                        const Context& context) {
+  const Mesh& mesh = *document.mesh;
+  const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
+  const std::vector<Outline> outlines = outlines_of(mesh, document.lines, document.partitions);
+  std::vector<WorkItem> items;
+  std::vector<VertexId> vertices;
+  for (std::size_t k = 0; k < partitions.size(); ++k) {
+    const Outline& outline = outlines[k];
+    const std::size_t sides = outline.sides();
+    if (outline.loops.size() <= 1 &&
+        sides <= static_cast<std::size_t>(std::max(options.most_borderlines, 0)))
+      continue;
+    WorkItem item;
+    item.kind = WorkKind::many_borders;
+    item.size = static_cast<double>(sides);
+    item.partitions = {partitions[k]->id};
+    vertices.clear();
+    for (const BorderLoop& loop : outline.loops)
+      for (const HalfEdgeId h : loop.half_edges) vertices.push_back(mesh.from(h));
+    item.vertices = extremes(mesh, vertices);
+    item.sentence = "Partition " + std::to_string(partitions[k]->id) + " has " + outline.text();
+    items.push_back(std::move(item));
+  }
+  keep_largest(items, options.most_per_kind);
+  parallel_for(
+      items.size(),
+      [&](std::size_t k) {
+        WorkItem& item = items[k];
+        const Partition& partition = *document.partitions.find(item.partitions[0]);
+        if (context.cancelled()) return;
+        if (partition.locked) {
+          item.sentence += "; it is locked.";
+          return;
+        }
+        const FourSidedPlan plan = four_sided_cuts(mesh, *document.curvatures, document.lines,
+                                                   document.partitions, partition);
+        double length = 0.0;
+        for (const FourSidedCut& cut : plan.cuts) {
+          item.paths.insert(item.paths.end(), cut.strokes.begin(), cut.strokes.end());
+          length += cut.length;
+        }
+        const std::size_t cuts = item.paths.size();
+        if (cuts > 0)
+          item.sentence +=
+              "; " +
+              (cuts == 1 ? std::string("a cut of ") + mm_text(length)
+                         : std::to_string(cuts) + " cuts of " + mm_text(length) + " in all") +
+              (plan.obstacle.empty() ? " would leave no piece with more than four"
+                                     : " would leave fewer");
+        if (!plan.obstacle.empty())
+          item.sentence +=
+              (cuts > 0 ? ", but not four: " : "; no cut is proposed: ") + plan.obstacle;
+        item.sentence += ".";
+      },
+      1);
+  return items;
 }
 
 }  // namespace
@@ -398,7 +450,9 @@ Result<std::vector<WorkItem>> worklist(const Document& document, const WorklistO
     unassigned = unassigned_items(document);
     if (context.cancelled()) return cancelled();
     context.report(0.8, "worklist");
-    add_boundary_items(document, options, undefined, many, slivers);
+    add_boundary_items(document, options, undefined, slivers);
+    many = many_border_items(document, options, context);
+    if (context.cancelled()) return cancelled();
   }
   for (std::vector<WorkItem>* items : {&leaks, &loose, &unassigned, &undefined, &many, &slivers}) {
     keep_largest(*items, options.most_per_kind);

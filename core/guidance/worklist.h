@@ -20,7 +20,7 @@ enum class WorkKind : std::uint8_t {
   loose_end,           ///< A line just stops inside the scan.
   unassigned_area,     ///< Connected faces of no partition.
   undefined_boundary,  ///< A partition ends, and no other begins.
-  many_borders,        ///< A partition with more than four borderlines.
+  many_borders,        ///< A partition with more than four sides, or with a hole.
   sliver,              ///< A partition narrow compared with its length.
 };
 
@@ -39,20 +39,21 @@ struct WorkItem {
   WorkKind kind = WorkKind::leak;
   std::string sentence;
   /// Ranks within the kind: score of the leak; length of the line that stops, mm; area, mm^2;
-  /// length of the boundary, mm; number of borderlines; length over width.
+  /// length of the boundary, mm; number of sides; length over width.
   double size = 0.0;
   std::vector<VertexId> vertices;  ///< To zoom to: the paths, or what spans the area.
   std::vector<std::uint32_t> lines, partitions;
-  std::vector<std::vector<VertexId>> paths;  ///< leak: the gaps, to be closed together.
-  FaceId face = no_id;                       ///< unassigned_area: its lowest face.
-  std::vector<Continuation> continuations;   ///< loose_end: the best first.
+  /// leak: the gaps, to be closed together. many_borders: the cuts that split_to_four_sides makes.
+  std::vector<std::vector<VertexId>> paths;
+  FaceId face = no_id;                      ///< unassigned_area: its lowest face.
+  std::vector<Continuation> continuations;  ///< loose_end: the best first.
 };
 
 struct WorklistOptions {
   std::size_t most_per_kind = 200;
   std::size_t most_continuations = 3;
   double reach = 15.0;        ///< Of leaks and continuations, in mean edge lengths.
-  int most_borderlines = 4;   ///< A partition with more is listed.
+  int most_borderlines = 4;   ///< A partition with more, counted between corners, is listed.
   double sliver_ratio = 8.0;  ///< A partition is a sliver where length / width is above this
   double sliver_width = 3.0;  ///< and its width below this many mean edge lengths.
 };

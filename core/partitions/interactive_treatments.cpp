@@ -1,9 +1,11 @@
 #include "core/partitions/interactive_treatments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -35,6 +37,34 @@ std::vector<FaceId> flood(const Mesh& mesh, const std::vector<FaceId>& starts,
       }
     });
   return front;
+}
+
+/// Of the faces joined to `left` and those joined to `right`, the fewer (tie: left); none where
+/// they are the same. Both grow in turn, so that the cost follows the smaller side.
+template <class MayEnter>
+std::optional<std::vector<FaceId>> smaller_side(const Mesh& mesh, const std::vector<FaceId>& left,
+                                                const std::vector<FaceId>& right,
+                                                const MayEnter& may_enter) {
+  std::array<std::vector<FaceId>, 2> fronts;
+  std::array<std::size_t, 2> next{0, 0};
+  std::unordered_map<FaceId, std::size_t> side_of;
+  const auto reach = [&](FaceId f, std::size_t side) {
+    const auto [it, fresh] = side_of.try_emplace(f, side);
+    if (fresh) fronts[side].push_back(f);
+    return it->second == side;
+  };
+  for (const FaceId f : left) reach(f, 0);
+  for (const FaceId f : right)
+    if (!reach(f, 1)) return std::nullopt;
+  for (std::size_t side = 0;; side = 1 - side) {
+    bool apart = true;
+    for_sides(mesh, fronts[side][next[side]++], [&](HalfEdgeId h) {
+      const FaceId f = mesh.face(Mesh::opposite(h));
+      if (f != no_id && may_enter(h, f)) apart = reach(f, side) && apart;
+    });
+    if (!apart) return std::nullopt;
+    if (next[side] == fronts[side].size()) return std::move(fronts[side]);
+  }
 }
 
 /// Pieces that are no longer joined to the rest of a label, the largest piece left out. `starts`:
@@ -307,26 +337,19 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
   if (left.empty()) return fail(nothing);
   // An inner sharp line counts as part of the cut only where the path alone does not do.
   for (const bool lines_cut : {false, true}) {
-    const auto side = [&](const std::vector<FaceId>& starts) {
-      return flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
-        return own(f) && !cut.contains(h >> 1) && !(lines_cut && ground.lines.is_sharp(h >> 1));
-      });
+    const auto may_enter = [&](HalfEdgeId h, FaceId f) {
+      return own(f) && !cut.contains(h >> 1) && !(lines_cut && ground.lines.is_sharp(h >> 1));
     };
-    std::vector<FaceId> one = side(left);
-    const std::unordered_set<FaceId> reached(one.begin(), one.end());
-    if (std::any_of(right.begin(), right.end(), [&](FaceId f) { return reached.contains(f); }))
-      continue;
-    std::vector<FaceId> other = side(right);
-    std::vector<FaceId>& smaller = other.size() < one.size() ? other : one;
-    std::sort(smaller.begin(), smaller.end());
-    smaller.erase(std::unique(smaller.begin(), smaller.end()), smaller.end());
+    std::optional<std::vector<FaceId>> smaller = smaller_side(mesh, left, right, may_enter);
+    if (!smaller) continue;
+    std::sort(smaller->begin(), smaller->end());
     // A path that touches the boundary on its way may cut off several pieces: one is split off
     // here, and what else was parted by that is told apart by edit_partitions().
     std::vector<FaceId> largest;
     std::unordered_set<FaceId> seen;
-    for (const FaceId f : smaller) {
+    for (const FaceId f : *smaller) {
       if (seen.contains(f)) continue;
-      std::vector<FaceId> piece = side({f});
+      std::vector<FaceId> piece = flood(mesh, {f}, may_enter);
       seen.insert(piece.begin(), piece.end());
       if (piece.size() > largest.size()) largest = std::move(piece);
     }

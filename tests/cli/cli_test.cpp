@@ -450,6 +450,10 @@ void expect_valid_results(const TempFolder& folder, const std::string& results,
   EXPECT_LE(ids.size(), summary["partitions"]["count"]) << "a tiny one may lose its polygons";
   EXPECT_GE(summary["partitions"]["assigned_area_share"], 0.0);
   EXPECT_LE(summary["partitions"]["assigned_area_share"], 1.0 + 1e-12);
+  EXPECT_EQ(summary["partitions"]["sides"].size(), summary["partitions"]["count"]);
+  EXPECT_LE(summary["partitions"]["four_sided"], summary["partitions"]["count"]);
+  EXPECT_GE(summary["partitions"]["four_sided_share"], 0.0);
+  EXPECT_LE(summary["partitions"]["four_sided_share"], 1.0 + 1e-12);
 
   // Boundaries.
   const auto boundaries = parse_lines_obj(folder.read(results + "/boundaries.obj"));
@@ -508,6 +512,8 @@ TEST_F(Cli, SegmentOfAStepFindsItsLinesAndLevels) {
   EXPECT_NEAR(result["lines"]["length"], 40.0, 1e-4);
   EXPECT_EQ(result["partitions"]["count"], 3);
   EXPECT_NEAR(result["partitions"]["assigned_area_share"], 1.0, 1e-9);
+  EXPECT_NEAR(result["partitions"]["four_sided_share"], 1.0, 1e-9);
+  for (const json& sides : result["partitions"]["sides"]) EXPECT_EQ(sides, 4);
   EXPECT_EQ(result["boundaries"], (json{{"C0", 2}, {"border", 4}}));
   for (const char* step : {"open", "find_sharp_lines", "find_partitions"})
     EXPECT_TRUE(result["seconds"][step].is_number()) << step;

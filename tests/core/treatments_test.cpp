@@ -589,7 +589,7 @@ class RandomEdits {
     const bool has_lines = !document.lines.lines.empty();
     const bool has_partitions = !document.partitions.partitions.empty();
     for (;;) {
-      const std::uint64_t kind = random_.bits() % 26;
+      const std::uint64_t kind = random_.bits() % 27;
       if (kind < 8 && kind != 4 && kind != 5 && !has_lines) continue;
       if (kind >= 10 && kind < 20 && !has_partitions) continue;
       switch (kind) {
@@ -673,6 +673,10 @@ class RandomEdits {
         case 23:
           if (document.corrections.empty()) continue;
           return {"lift_correction", {{"correction", pick(document.corrections)->id}}};
+        case 24:
+          if (!has_partitions) continue;
+          return {"split_to_four_sides",
+                  random_.bits() % 8 ? json{{"partitions", {partition().id}}} : json::object()};
         default:
           return {random_.bits() % 3 == 0 ? "undo" : "redo", json::object()};
       }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatments.h"
+#include "core/partitions/four_sided_cuts.h"
 
 namespace arris {
 
@@ -371,6 +373,140 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
+// split_to_four_sides: {partitions: [ids], all that have more, or holes, where left out;
+// neighbours: whether partitions that get a fifth side by the cuts beside them are cut, too}
+
+/// Whether there may be a cut for it at all.
+bool wants_cuts(const Partition& partition, const Outline& outline) {
+  return !partition.locked && !outline.loops.empty() && outline.handles == 0 &&
+         !outline.is_four_sided();
+}
+
+Result<json> resolve_four_sides(const Document& document, const json& given) {
+  if (const auto found = needs_partitions(document); !found)
+    return tl::unexpected<Error>(found.error());
+  json with_list = given;
+  if (!with_list.contains("partitions")) {
+    std::vector<std::uint32_t> ids;
+    const std::vector<Outline> outlines =
+        outlines_of(*document.mesh, document.lines, document.partitions);
+    for (std::size_t k = 0; k < outlines.size(); ++k)
+      if (const Partition& partition = *document.partitions.partitions[k];
+          wants_cuts(partition, outlines[k]))
+        ids.push_back(partition.id);
+    if (ids.empty())
+      return fail("Every partition that is not locked has at most four sides: nothing to cut.");
+    with_list["partitions"] = ids;
+  }
+  ParameterReader reader("split_to_four_sides", with_list);
+  read_partitions(reader, document, "partitions", "anchors", false);
+  reader.flag("neighbours", !given.contains("partitions"));
+  return reader.finish();
+}
+
+/// What cutting one partition made of it.
+struct CutPartition {
+  std::vector<std::uint32_t> pieces;
+  std::string obstacle;        ///< Why one of them keeps more than four sides; empty: none does.
+  std::vector<VertexId> ends;  ///< Of the cuts.
+};
+
+CutPartition cut_to_four_sides(Ground& ground, std::uint32_t id) {
+  CutPartition result;
+  result.pieces.push_back(id);
+  const std::uint32_t first_new = ground.next_id;
+  const FourSidedPlan plan = four_sided_cuts(ground.mesh, ground.curvatures, ground.lines,
+                                             ground.partitions, *ground.partitions.find(id));
+  result.obstacle = plan.obstacle;
+  for (const FourSidedCut& cut : plan.cuts) {
+    const Partition& piece =
+        *ground.partitions.find(partition_along(ground.mesh, ground.partitions, cut.path));
+    const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), piece, cut.path);
+    const Partition fresh = ground.new_partition(piece.interval);
+    ground.change(labelled(*part, fresh.id), {fresh});
+    for (const Path& stroke : cut.strokes)
+      result.ends.insert(result.ends.end(), {stroke.front(), stroke.back()});
+  }
+  for (std::uint32_t piece = first_new; piece < ground.next_id; ++piece)
+    result.pieces.push_back(piece);
+  return result;
+}
+
+/// Partitions at these vertices that may be cut to four sides, too.
+std::set<std::uint32_t> to_cut_at(const Ground& ground, const std::vector<VertexId>& vertices) {
+  std::set<std::uint32_t> ids;
+  for (const VertexId v : vertices)
+    ground.mesh.for_ring(v, [&](HalfEdgeId h) {
+      if (ground.mesh.face(h) != no_id) ids.insert(ground.partitions.label(ground.mesh.face(h)));
+    });
+  ids.erase(0);
+  std::erase_if(ids, [&](std::uint32_t id) {
+    const Partition& partition = *ground.partitions.find(id);
+    return !wants_cuts(partition,
+                       outline_of(ground.mesh, ground.lines, ground.partitions, partition));
+  });
+  return ids;
+}
+
+Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Round round) {
+  Outcome outcome;
+  std::set<std::uint32_t> ids;
+  const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
+  for (const PartitionPtr& partition : partitions)
+    if (partition->locked)
+      outcome.adapted =
+          "Partition " + std::to_string(partition->id) + " is locked; it is left as it is.";
+    else
+      ids.insert(partition->id);
+  if (partitions.empty()) return fail(outcome.adapted);
+  // A cut may end in a side of another piece or partition, which thereby gets a corner more.
+  constexpr int rounds = 4;
+  std::map<std::uint32_t, std::string> why;  // of pieces of partitions that do not come out whole
+  std::set<std::uint32_t> all = ids, settled;
+  bool any = false;
+  for (int k = 0; k < rounds && !ids.empty(); ++k) {
+    std::vector<VertexId> ends;
+    for (const std::uint32_t id : ids) {
+      const CutPartition cut = cut_to_four_sides(ground, id);
+      all.insert(cut.pieces.begin(), cut.pieces.end());
+      ends.insert(ends.end(), cut.ends.begin(), cut.ends.end());
+      if (cut.ends.empty()) settled.insert(id);
+      for (const std::uint32_t piece : cut.pieces) why[piece] = cut.obstacle;
+    }
+    any = any || !ends.empty();
+    ids = to_cut_at(ground, ends);
+    std::erase_if(ids, [&](std::uint32_t id) {
+      return settled.contains(id) || !(parameters.at("neighbours") || all.contains(id));
+    });
+  }
+  std::string kept;
+  std::size_t more = 0;
+  for (const std::uint32_t id : all) {
+    const Outline outline =
+        outline_of(ground.mesh, ground.lines, ground.partitions, *ground.partitions.find(id));
+    if (outline.is_four_sided()) continue;
+    if (!kept.empty()) {
+      ++more;
+      continue;
+    }
+    kept = "Partition " + std::to_string(id) + " is left with " + outline.text();
+    if (const std::string& obstacle = why[id]; !obstacle.empty()) kept += ": " + obstacle;
+    kept += ".";
+  }
+  if (more > 0) kept += " " + std::to_string(more) + " more are like it.";
+  if (!any && !kept.empty()) return fail(kept);
+  if (!any && round == Round::first)
+    return fail(all.size() == 1
+                    ? "Partition " + std::to_string(*all.begin()) +
+                          " has at most four sides already: nothing to cut."
+                    : std::string("These partitions have at most four sides already: nothing to "
+                                  "cut."));
+  if (!any && outcome.adapted.empty())
+    outcome.adapted = "What is found there now has at most four sides already.";
+  if (!kept.empty()) outcome.adapted = kept;
+  return outcome;
+}
+
 // paint_partition: {partition: id (0: into none), region}
 
 Result<json> resolve_paint(const Document& document, const json& given) {
@@ -455,6 +591,8 @@ const Treatment remove_small_partitions_treatment{"remove_small_partitions", aft
 const Treatment restart_partitions_treatment{"restart_partitions", after_partitions, restart};
 const Treatment recompute_partitions_treatment{"recompute_partitions", after_partitions, recompute};
 const Treatment split_partition_treatment{"split_partition", after_partitions, split};
+const Treatment split_to_four_sides_treatment{"split_to_four_sides", after_partitions,
+                                              split_to_four_sides};
 const Treatment paint_partition_treatment{"paint_partition", after_partitions, paint};
 const Treatment smooth_boundaries_treatment{"smooth_boundaries", after_partitions, smooth};
 
@@ -491,6 +629,12 @@ const OperationKind recompute_partitions_operation{"recompute_partitions",
 const OperationKind split_partition_operation{
     "split_partition", "Split partition", 1, resolve_split, apply<split_partition_treatment>,
     partitions_gist};
+const OperationKind split_to_four_sides_operation{"split_to_four_sides",
+                                                  "Split to four sides",
+                                                  1,
+                                                  resolve_four_sides,
+                                                  apply<split_to_four_sides_treatment>,
+                                                  partitions_gist};
 const OperationKind paint_partition_operation{
     "paint_partition", "Paint partition", 1, resolve_paint, apply<paint_partition_treatment>,
     paint_gist};

@@ -96,15 +96,16 @@ Result<Document> apply_treatment(std::string_view name, const Document& document
                                  const nlohmann::json& parameters) {
   const Treatment& treatment = *find_treatment(name);
   Ground ground = ground_of(document);
-  if (const auto done = treatment.perform(ground, parameters, Round::first); !done)
-    return tl::unexpected<Error>(done.error());
+  const Result<Outcome> done = treatment.perform(ground, parameters, Round::first);
+  if (!done) return tl::unexpected<Error>(done.error());
   Document result = document;
   result.lines = std::move(ground.lines);
   result.partitions = std::move(ground.partitions);
   result.boundaries = std::make_shared<const Boundaries>(std::move(ground.boundaries));
   result.next_id = ground.next_id;
   result.corrections.push_back(std::make_shared<const Correction>(
-      result.next_id++, Operation{std::string(name), parameters}, CorrectionState::applied, ""));
+      result.next_id++, Operation{std::string(name), parameters},
+      done->adapted.empty() ? CorrectionState::applied : CorrectionState::adapted, done->adapted));
   if (treatment.belongs(parameters, Round::after_lines))
     for (std::optional<Step>* step : {&result.smooth_curvature, &result.find_partitions})
       if (*step) (*step)->out_of_date = true;

@@ -98,7 +98,7 @@ std::string lift_gist(const json& parameters) {
 }  // namespace
 
 std::span<const Treatment* const> all_treatments() {
-  static const std::array<const Treatment*, 17> treatments{
+  static const std::array<const Treatment*, 18> treatments{
       &delete_lines_treatment,       &extend_line_treatment,
       &trim_line_treatment,          &split_line_treatment,
       &merge_lines_treatment,        &draw_line_treatment,
@@ -106,8 +106,8 @@ std::span<const Treatment* const> all_treatments() {
       &connect_partitions_treatment, &extend_partition_treatment,
       &remove_partitions_treatment,  &remove_small_partitions_treatment,
       &restart_partitions_treatment, &recompute_partitions_treatment,
-      &split_partition_treatment,    &paint_partition_treatment,
-      &smooth_boundaries_treatment};
+      &split_partition_treatment,    &split_to_four_sides_treatment,
+      &paint_partition_treatment,    &smooth_boundaries_treatment};
   return treatments;
 }
 
