@@ -597,6 +597,7 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
                                  static_cast<double>(options.angle * radians)};
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
+  const SurfaceNoise near_noise = tree.noise;
   const FaceRegions old = areas;
   for (int round = 1;; ++round) {
     const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
@@ -609,7 +610,9 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
         if (grown[k] >= by_surface.size()) by_surface.resize(grown[k] + 1);
         by_surface[grown[k]].push_back(grains.samples[k]);
       }
-    const SurfaceNoise now = noise_of(by_surface, least_noise);
+    SurfaceNoise now = noise_of(by_surface, least_noise);
+    now.distance = std::min(now.distance, options.most_drift * near_noise.distance);
+    now.angle = std::min(now.angle, options.most_spread * near_noise.angle);
     const auto stays = [&](double before, double after) {
       return std::abs(after - before) <= options.settled * before;
     };

@@ -30,19 +30,26 @@ struct AreaTreeOptions {
   float first_area = 40.0F;                // below it an area joins the more easily
   int growths = 6;                         // rounds of growing surfaces, at most: they end
   double settled = 0.03;                   // when the noise changes by less than this share of it
-  float inner = 0.3F;  // height up to which the pieces of one surface are joined
+  double most_drift = 3.0;   // distances over whole surfaces to those over a few edges
+  double most_spread = 1.5;  // and angles: above, surfaces have run into one another
+  float inner = 0.3F;        // height up to which the pieces of one surface are joined
   SurfaceGrowingOptions growing;
   int grain = 8;              // faces that make one sample of an area
   float same = 1.1F;          // times its area, up to which an area that grows stays what it was
   std::size_t samples = 128;  // of an area, at most
-  float rise = 10.0F;         // of the misfits, summed up, by a join to one surface: this much,
-  float rise_each = 1.0F;     // and this for each sample of the smaller area
-  float rise_border = 0.6F;   // and for each edge of border between the two
+  // Misfits are summed up over samples. One surface may take the place of two where it misses no
+  // more than this in all, and this for each sample of the smaller area (up to so many), and this
+  // for each mean edge of border that goes.
+  float rise = 10.0F;
+  float rise_each = 1.0F;
+  float rise_area = 50.0F;
+  float rise_border = 0.6F;
+  float free = 2.5F;  // mean misfit at which an area is rather free than of a surface
+  // Over a border without a kink areas become a free one where no more is lost than this, and this
+  // for each mean edge of it.
+  float free_rise = 30.0F;
   float free_border = 1.0F;
-  float rise_area = 50.0F;  // up to this many
-  float free = 2.5F;        // mean misfit at which an area is rather free than of a surface
   float blend = 15.0F;      // least radius of a torus up to which it is more than a free area
-  float free_rise = 30.0F;  // of the misfits by a join over a kink, at most
   float kink = 2.4F;        // degrees of kink at which areas are joined
   float small = 25.0F;      // areas under this are joined the more easily
   float line_share = 0.5F;  // of a border that is a line: from here on nothing is joined over it

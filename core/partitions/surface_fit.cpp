@@ -121,11 +121,11 @@ class Fitting {
     const double first = judge(surface);
     if (first > options_.near) return;
     const std::size_t stride = std::max<std::size_t>(1, samples_.size() / options_.refined);
-    double before = std::numeric_limits<double>::infinity();
+    double before = 1e300;
     for (int step = 0; step < options_.steps; ++step) {
       double misfit = 0.0;
       if (!improve(surface, stride, misfit)) return;
-      if (misfit > 0.99 * before) break;
+      if (std::abs(misfit - before) <= 2e-3 * before) break;
       before = misfit;
     }
     judge(surface);

@@ -60,7 +60,7 @@ struct FittedSurface {
 struct SurfaceFitOptions {
   double most = 9.0;            // squares over the noise are limited to this
   double price = 1.0;           // of a parameter of the surface, in what it has to explain
-  int steps = 5;                // of least squares after the first estimate
+  int steps = 8;                // of least squares after the first estimate
   std::size_t refined = 32;     // samples that they read
   double near = 8.9;            // misfit of that from which on they are not worth it
   double least_tube = 0.3;      // of a torus, in the unit of the points
