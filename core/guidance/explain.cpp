@@ -494,8 +494,20 @@ Explanation explain_face(const Document& document, FaceId f) {
                                    : "In no partition: partitions were not looked for yet.";
     return result;
   }
-  const FaceRules rules(document, step->parameters);
   const Partition* partition = document.partitions.find(label);
+  if (document.partition_method() == PartitionMethod::surfaces) {
+    HalfEdgeId side = mesh.face_half_edge(f);
+    for (int k = 0; k < 3; ++k, side = mesh.next(side))
+      result.tests.push_back(side_test(document, side, label));
+    const std::string detail = short_text(step->parameters.value("detail", 1.0));
+    const std::string old = step->out_of_date ? ", from before an earlier step changed" : "";
+    result.headline = !result.holds
+                          ? "In no partition: a correction took it away" + old + "."
+                          : in + ", of faces that one surface explains at detail " + detail +
+                                ", between lines and kinks of curvature" + old + ".";
+    return result;
+  }
+  const FaceRules rules(document, step->parameters);
   const CurvatureInterval* passed = partition && rules.passes(f, partition->interval)
                                         ? &partition->interval
                                         : rules.passed_interval(f);

@@ -14,6 +14,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
+#include <QSlider>
 #include <QStandardPaths>
 #include <QTableView>
 #include <QTemporaryDir>
@@ -181,6 +182,32 @@ TEST_F(MainWindowTest, TheMethodOnTheCardChangesHowLinesAreFound) {
   EXPECT_LT(document().lines.lines.size(), by_walk);
 }
 
+TEST_F(MainWindowTest, TheSliderOfDetailIsFollowedAndLeavesOneHistoryEntry) {
+  open_sample();
+  QTest::keyClick(window.get(), Qt::Key_F5);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+  EXPECT_EQ(document().partition_method(), PartitionMethod::surfaces);
+  QSlider* slider = nullptr;
+  for (QSlider* one : window->findChild<StepsPanel*>()->findChildren<QSlider*>())
+    if (one->accessibleName() == "Detail") slider = one;
+  ASSERT_NE(slider, nullptr);
+  const std::size_t found = document().partitions.partitions.size();
+  const std::uint32_t before = rows();
+  // To the left: fewer and larger ones, as one step of the history.
+  slider->setFocus();
+  slider->setSliderDown(true);
+  slider->setValue(slider->value() / 2);
+  slider->setValue(slider->value() / 4);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->session().is_previewing(); }, patience));
+  slider->setSliderDown(false);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
+  EXPECT_LE(document().partitions.partitions.size(), found);
+  EXPECT_LT(document().find_partitions->parameters["detail"].get<double>(), 0.5);
+  QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
+  EXPECT_EQ(document().partitions.partitions.size(), found);
+}
+
 TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
   open_sample();
   window->set_field(Field::normal_jump);
@@ -250,9 +277,11 @@ TEST_F(MainWindowTest, EscapeWhileDraggingRestores) {
 TEST_F(MainWindowTest, DraggingTheCurvatureBoundMovesThePartitions) {
   open_sample();
   run_both();
-  const std::uint32_t ran = rows();
   window->set_field(Field::kabs);
   HistogramPanel& histogram = window->histogram();
+  EXPECT_TRUE(histogram.handles().empty()) << "surfaces know no intervals";
+  run({"find_partitions", {{"method", "fronts"}}});
+  const std::uint32_t ran = rows();
   ASSERT_GE(histogram.handles().size(), 1u);
   const auto before = document().find_partitions->parameters["intervals"];
   const QPoint start = histogram.handle_position(0);

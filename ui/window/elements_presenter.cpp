@@ -55,7 +55,7 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
   auto* table = new ElementTable(
       tr("partitions"),
       {tr("Partition"), tr("Surface"), tr("Size"), tr("Deviation mm"), tr("Largest mm"),
-       tr("Within %"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Interval")},
+       tr("Within %"), tr("Sides"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Interval")},
       {tr("Id of the partition; it keeps it while thresholds move"),
        tr("The surface that explains it: plane, sphere, cylinder, cone, torus, or free: none of "
           "them"),
@@ -63,6 +63,7 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
        tr("Mean distance of its vertices from that surface"),
        tr("Largest distance of its vertices from that surface"),
        tr("Share of its vertices within three times the noise of the scan"),
+       tr("Its sides between corners, and its holes; a surface patch wants four and none"),
        tr("Area of its faces"), tr("Number of faces"),
        tr("Mean value of the criterion (Kabs or IKabs)"),
        tr("Values of the criterion inside it, or the interval it was found under")},
@@ -198,7 +199,7 @@ void ElementsPresenter::fill_partitions_table() {
       }
     }
     rows.push_back({p.id,
-                    {p.id, type, size, mean, most, within, shown(p.area), p.faces,
+                    {p.id, type, size, mean, most, within, sides_[p.id], shown(p.area), p.faces,
                      shown(p.mean_value, 3), interval_text(p.interval)},
                     colours[k]});
   }
@@ -213,15 +214,30 @@ void ElementsPresenter::fit_surfaces() {
   for (const PartitionPtr& p : partitions)
     if (const auto known = fitted_.find(p.get()); known != fitted_.end()) kept.insert(*known);
   fitted_ = std::move(kept);
-  if (fitted_.size() == partitions.size()) return;
+  struct Found {
+    std::vector<PartitionSurface> surfaces;  // empty: all are known
+    std::vector<Outline> outlines;
+  };
   surfaces_work_.start(
-      [document](const Context& context) {
-        return fit_partition_surfaces(*document.mesh, document.lines, document.partitions, context);
+      [document, known = fitted_.size() == partitions.size()](const Context& context) {
+        Found found;
+        found.outlines = outlines_of(*document.mesh, document.lines, document.partitions);
+        if (known || context.cancelled()) return found;
+        auto fitted =
+            fit_partition_surfaces(*document.mesh, document.lines, document.partitions, context);
+        if (fitted) found.surfaces = std::move(*fitted);
+        return found;
       },
-      [this, partitions](const Result<std::vector<PartitionSurface>>& found) {
-        if (!found) return;
-        for (std::size_t k = 0; k < partitions.size(); ++k)
-          fitted_.insert_or_assign(partitions[k].get(), Fitted{partitions[k], (*found)[k]});
+      [this, partitions](const Found& found) {
+        sides_.clear();
+        for (std::size_t k = 0; k < partitions.size(); ++k) {
+          const Outline& outline = found.outlines[k];
+          sides_[partitions[k]->id] = outline.loops.size() == 1 && outline.handles == 0
+                                          ? QVariant(static_cast<int>(outline.sides()))
+                                          : QVariant(QString::fromStdString(outline.text()));
+          if (!found.surfaces.empty())
+            fitted_.insert_or_assign(partitions[k].get(), Fitted{partitions[k], found.surfaces[k]});
+        }
         if (!session_->is_previewing()) fill_partitions_table();
         show_selection();
       });

@@ -5,8 +5,10 @@
 #include <unordered_set>
 
 #include <QObject>
+#include <QVariant>
 
 #include "core/partitions/partition_surfaces.h"
+#include "core/partitions/sides.h"
 #include "ui/panels/element_table.h"
 #include "ui/view/mesh_view.h"
 #include "ui/window/latest_work.h"
@@ -86,8 +88,9 @@ class ElementsPresenter : public QObject {
     PartitionSurface surface;
   };
   std::unordered_map<const Partition*, Fitted> fitted_;
-  LatestWork surfaces_work_;  // which surfaces partitions are of
-  LatestWork scan_work_;      // which faces of the scan they are
+  std::unordered_map<std::uint32_t, QVariant> sides_;  // by id of the partition
+  LatestWork surfaces_work_;                           // which surfaces partitions are of
+  LatestWork scan_work_;                               // which faces of the scan they are
 };
 
 }  // namespace arris::ui

@@ -75,8 +75,12 @@ StabilityPresenter::Basis StabilityPresenter::basis() const {
       field != Field::kabs)
     return basis;
   nlohmann::json partitions = session_->current_parameters("find_partitions");
-  const bool by_criterion = (field == Field::kabs && partitions["criterion"] == "kabs") ||
-                            (field == Field::ikabs && partitions["criterion"] == "ikabs");
+  // What surfaces decide by is no interval of curvature.
+  const bool by_surfaces =
+      document.find_partitions && document.partition_method() == PartitionMethod::surfaces;
+  const bool by_criterion =
+      !by_surfaces && ((field == Field::kabs && partitions["criterion"] == "kabs") ||
+                       (field == Field::ikabs && partitions["criterion"] == "ikabs"));
   if (by_criterion) {
     basis.kind = Kind::partitions;
     basis.mesh = document.mesh;

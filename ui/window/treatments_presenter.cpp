@@ -240,6 +240,13 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
       [this] {
         run_now({"smooth_boundaries", {{"partitions", selected_partitions()}}});
       });
+  add(menu, partition_actions_, tr("Cut into &four sides"), "Shift+Q",
+      tr("Cuts the selected partitions, or all, so that none has more than four sides or a hole"),
+      found, [this] {
+        const auto chosen = selected_partitions();
+        run_now({"split_to_four_sides",
+                 chosen.empty() ? json::object() : json{{"partitions", chosen}}});
+      });
   add(menu, partition_actions_, tr("Remove s&mall ones…"), "Shift+M",
       tr("Removes partitions under a number of faces"), found, [this] { remove_small(); });
   refresh();

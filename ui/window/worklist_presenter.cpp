@@ -26,7 +26,7 @@ QString title_of(WorkKind kind) {
     case WorkKind::undefined_boundary:
       return QObject::tr("Undefined boundaries");
     case WorkKind::many_borders:
-      return QObject::tr("Many borderlines");
+      return QObject::tr("More than four sides");
     case WorkKind::sliver:
       return QObject::tr("Slivers");
   }
@@ -54,10 +54,11 @@ std::string key_of(const WorkItem& item) {
   return key.dump();
 }
 
-/// The ways to settle an item, as the lines that each of them draws.
+/// The ways to settle an item, as the lines or cuts that each of them draws.
 std::vector<std::vector<std::vector<VertexId>>> ways_of(const WorkItem& item) {
   std::vector<std::vector<std::vector<VertexId>>> ways;
-  if (item.kind == WorkKind::leak) ways.push_back(item.paths);
+  if (item.kind == WorkKind::leak || (item.kind == WorkKind::many_borders && !item.paths.empty()))
+    ways.push_back(item.paths);
   for (const Continuation& way : item.continuations) ways.push_back({way.vertices});
   return ways;
 }
@@ -98,8 +99,9 @@ void WorklistPresenter::add_actions(QMenu* menu) {
   connect(action(menu, tr("&Previous in the worklist"), QKeySequence("Shift+F7"),
                  tr("Zoom to the one before")),
           &QAction::triggered, this, &WorklistPresenter::previous);
-  accept_action_ = action(menu, tr("&Accept"), QKeySequence("A"),
-                          tr("Draw the line that the worklist proposes, shown dashed"));
+  accept_action_ =
+      action(menu, tr("&Accept"), QKeySequence("A"),
+             tr("Draw the line or make the cuts that the worklist proposes, shown dashed"));
   connect(accept_action_, &QAction::triggered, this, &WorklistPresenter::accept);
   bring_back_ = action(menu, tr("&Bring back what was dismissed"), {},
                        tr("Put the things taken off the worklist on it again"));
@@ -267,10 +269,15 @@ bool WorklistPresenter::can_accept() const {
 void WorklistPresenter::accept() {
   if (!can_accept()) return;
   const int row = panel_->current_row();
-  const auto ways = ways_of(items_[static_cast<std::size_t>(row)]);
+  const WorkItem& item = items_[static_cast<std::size_t>(row)];
+  const auto ways = ways_of(item);
   std::vector<Operation> operations;
-  for (const std::vector<VertexId>& path : ways[static_cast<std::size_t>(panel_->current_choice())])
-    operations.push_back({"draw_line", {{"vertices", path}}});
+  if (item.kind == WorkKind::many_borders)
+    operations.push_back({"split_to_four_sides", {{"partitions", item.partitions}}});
+  else
+    for (const std::vector<VertexId>& path :
+         ways[static_cast<std::size_t>(panel_->current_choice())])
+      operations.push_back({"draw_line", {{"vertices", path}}});
   go_to_ = row;  // what follows moves up
   const std::string settled = key_of(items_[static_cast<std::size_t>(row)]);
   std::erase_if(leaks_, [&](const WorkItem& leak) { return key_of(leak) == settled; });
