@@ -398,11 +398,13 @@ class AreaJoining {
   FittedSurface fit_of(const Samples& samples) const {
     if (samples.empty()) return {};
     FittedSurface fit = fit_surface(samples, noise_);
-    // Any smooth surface is a torus for a while; one that says something is a blend.
+    // Any smooth surface is a torus for a while, and one that bends little a sphere or cylinder:
+    // they say something where the torus is a blend and the others bend noticeably.
     const Surface& surface = fit.surface;
-    if (surface.type == SurfaceType::torus &&
-        std::min(surface.tube, std::abs(surface.radius - surface.tube)) >
-            static_cast<double>(options_.blend))
+    const double torus = std::min(surface.tube, std::abs(surface.radius - surface.tube));
+    if ((surface.type == SurfaceType::torus && torus > static_cast<double>(options_.blend)) ||
+        ((surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder) &&
+         surface.radius > static_cast<double>(options_.wide)))
       fit.misfit = std::max(fit.misfit, static_cast<double>(options_.free));
     return fit;
   }

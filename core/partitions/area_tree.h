@@ -49,6 +49,7 @@ struct AreaTreeOptions {
   // for each mean edge of it.
   float free_rise = 30.0F;
   float free_border = 1.0F;
+  float wide = 100.0F;      // radius of a sphere or cylinder beyond which it is rather a free area
   float blend = 15.0F;      // least radius of a torus up to which it is more than a free area
   float kink = 2.4F;        // degrees of kink at which areas are joined
   float small = 25.0F;      // areas under this are joined the more easily

@@ -19,6 +19,14 @@ constexpr std::size_t most_fitted = 4000;  // vertices
 /// Mean misfit from which on no surface explains a partition. Scans are off their surfaces by more
 /// than their noise says: by what is wrong with the calibration, and with the part.
 constexpr double most_misfit = 6.0;
+/// Any smooth area is a torus of some kind for a while. Blends are what is one: a tube of up to so
+/// many mean edges about a ring that is wider.
+constexpr double widest_blend = 15.0;
+
+bool says_nothing(const Surface& surface) {
+  return surface.type == SurfaceType::torus &&
+         (surface.tube > widest_blend || surface.tube > surface.radius);
+}
 
 struct Member {
   VertexId vertex;
@@ -102,7 +110,7 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.steps = 12;
         options.near = options.most;
         const FittedSurface fit = fit_surface(samples, noise, options);
-        if (fit.misfit > most_misfit) return;
+        if (fit.misfit > most_misfit || says_nothing(fit.surface)) return;
         double sum = 0.0;
         std::size_t within = 0;
         for (const VertexId v : vertices) {

@@ -208,6 +208,20 @@ TEST_F(MainWindowTest, TheSliderOfDetailIsFollowedAndLeavesOneHistoryEntry) {
   EXPECT_EQ(document().partitions.partitions.size(), found);
 }
 
+TEST_F(MainWindowTest, AllPartitionsAreCutIntoFourSidesAtOnce) {
+  open_sample();
+  run_both();
+  const std::size_t found = document().partitions.partitions.size();
+  const std::uint32_t before = rows();
+  QTest::keyClick(window.get(), Qt::Key_Q, Qt::ShiftModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
+  EXPECT_EQ(window->session().history().entries().back().operation.name, "split_to_four_sides");
+  EXPECT_GT(document().partitions.partitions.size(), found);
+  QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
+  EXPECT_EQ(document().partitions.partitions.size(), found);
+}
+
 TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
   open_sample();
   window->set_field(Field::normal_jump);

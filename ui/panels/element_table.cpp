@@ -230,7 +230,7 @@ class ElementTable::Private {
   Proxy* proxy = nullptr;
   std::unordered_set<std::uint32_t> chosen;  // Also those that the filter hides.
   bool showing = false;                      // A change of the selection is not the user's.
-  bool sized = false;
+  std::vector<bool> sized;                   // columns: once, when there is something in them
   bool unseen = false;  // Selected while the table was hidden: to be scrolled to when it shows.
 
   std::uint32_t id_at(int proxy_row) const {
@@ -394,10 +394,15 @@ void ElementTable::set_rows(std::vector<ElementRow> rows) {
     p_->model->set_rows(std::move(rows));
     std::erase_if(p_->chosen, [this](std::uint32_t id) { return p_->model->row_of(id) < 0; });
   });
-  if (!p_->sized && p_->model->rowCount() > 0) {
-    p_->view->resizeColumnsToContents();
-    p_->sized = true;
-  }
+  // What takes longer to work out comes into its columns later.
+  const int columns = p_->model->columnCount(), looked_at = std::min(p_->model->rowCount(), 100);
+  p_->sized.resize(static_cast<std::size_t>(columns), false);
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < looked_at && !p_->sized[static_cast<std::size_t>(column)]; ++row)
+      if (!p_->model->index(row, column).data().toString().isEmpty()) {
+        p_->view->resizeColumnToContents(column);
+        p_->sized[static_cast<std::size_t>(column)] = true;
+      }
   p_->view->settle();
   p_->view->verticalScrollBar()->setValue(down);
   p_->view->horizontalScrollBar()->setValue(across);
