@@ -44,45 +44,24 @@ struct Side {
 Measured measure(const std::vector<WindowFace>& faces, const CurvatureKinkOptions& options,
                  const FallingExponential& falling) {
   Measured result;
-  Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
-  float weight = 0.0F;
-  Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
-  const float spread2 = 0.5F / (options.spread * options.spread);
-  for (const WindowFace& f : faces) {
-    const float w = f.area * falling(f.from_place.squaredNorm() * spread2);
-    const Vector3f wn = w * f.normal;
-    sum += wn;
-    weight += w;
-    moment += w * f.from_place;
-    change.noalias() += wn * f.from_place.transpose();
-  }
-  const float length = sum.norm();
-  if (!(length > 1e-6F * weight)) return result;
-  const Vector3f n = sum / length;
-  change.noalias() -= (sum / weight) * moment.transpose();
-  const Vector3f x =
-      (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
-  const Vector3f y = n.cross(x);
-  const Vector3f change_x = change * x, change_y = change * y;
-  const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),
-                                        change_x.squaredNorm() - change_y.squaredNorm());
-  result.across = std::cos(angle) * x + std::sin(angle) * y;
+  const auto [n, across, along] = frame_of(faces, options.spread, falling);
+  if (n.isZero()) return result;
+  result.across = across;
   result.normal = n;
-  const Vector3f along = n.cross(result.across);
 
   std::array<Side, 2> sides;
   float squares = 0.0F;
   const float along2 = 1.0F / (options.along * options.along);
   for (const WindowFace& f : faces) {
-    const float t = f.from_place.dot(result.across), height = f.from_place.dot(n);
+    const float t = f.from_place.dot(across), height = f.from_place.dot(n);
     const float distance = std::sqrt(t * t + height * height) / options.across;
     if (distance > 1.0F) continue;
     const float cosine = f.normal.dot(n);
     if (cosine < 0.2F) continue;
     const float u = f.from_place.dot(along);
     const float w = f.area * falling(u * u * along2) * (1.0F - 0.5F * distance);
-    const Eigen::Vector2f turn = angle_over_sine(1.0F - cosine) *
-                                 Eigen::Vector2f(f.normal.dot(result.across), f.normal.dot(along));
+    const Eigen::Vector2f turn =
+        angle_over_sine(1.0F - cosine) * Eigen::Vector2f(f.normal.dot(across), f.normal.dot(along));
     const Vector3f at(1.0F, t > 0.0F ? distance : -distance, u / options.across);
     Side& side = sides[t > 0.0F];
     side.gram.noalias() += (w * at) * at.transpose();

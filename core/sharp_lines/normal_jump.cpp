@@ -26,31 +26,8 @@ struct Measured {
 Measured measure(const std::vector<WindowFace>& samples, const NormalJumpOptions& options,
                  const FallingExponential& falling) {
   Measured result;
-  // The mean normal, and the tensor of how normals change over the tangent plane, both weighted
-  // towards the middle. The tensor is about the mean, so it is summed up with its moments.
-  Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
-  float weight = 0.0F;
-  Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
-  for (const WindowFace& s : samples) {
-    const float w = s.area * falling(0.5F * s.from_place.squaredNorm());
-    const Vector3f wn = w * s.normal;
-    sum += wn;
-    weight += w;
-    moment += w * s.from_place;
-    change.noalias() += wn * s.from_place.transpose();
-  }
-  const float length = sum.norm();
-  if (!(length > 1e-6F * weight)) return result;
-  const Vector3f n = sum / length;
-  change.noalias() -= (sum / weight) * moment.transpose();
-  const Vector3f x =
-      (std::abs(n[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY()).cross(n).normalized();
-  const Vector3f y = n.cross(x);
-  const Vector3f change_x = change * x, change_y = change * y;
-  const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),
-                                        change_x.squaredNorm() - change_y.squaredNorm());
-  const Vector3f across = std::cos(angle) * x + std::sin(angle) * y;
-  const Vector3f along = n.cross(across);
+  const auto [n, across, along] = frame_of(samples, 1.0F, falling);
+  if (n.isZero()) return result;
   result.along = along;
   result.normal = n;
 

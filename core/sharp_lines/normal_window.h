@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 
@@ -40,5 +41,48 @@ struct WindowFace {
   Eigen::Vector3f from_place, normal;
   float area;
 };
+
+/// How a window lies: its mean normal, the direction in which the normals turn most, and the one
+/// along which they do least. All zero where the faces turn into every direction.
+struct WindowFrame {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  Eigen::Vector3f across = Eigen::Vector3f::Zero();
+  Eigen::Vector3f along = Eigen::Vector3f::Zero();
+};
+
+/// `spread`: of the weights towards the middle, mean edges.
+inline WindowFrame frame_of(const std::vector<WindowFace>& faces, float spread,
+                            const FallingExponential& falling) {
+  using Eigen::Vector3f;
+  WindowFrame frame;
+  // The mean normal, and the tensor of how normals change over the tangent plane. The tensor is
+  // about the mean, so it is summed up with its moments.
+  Vector3f sum = Vector3f::Zero(), moment = Vector3f::Zero();
+  float weight = 0.0F;
+  Eigen::Matrix3f change = Eigen::Matrix3f::Zero();
+  const float spread2 = 0.5F / (spread * spread);
+  for (const WindowFace& f : faces) {
+    const float w = f.area * falling(spread2 * f.from_place.squaredNorm());
+    const Vector3f wn = w * f.normal;
+    sum += wn;
+    weight += w;
+    moment += w * f.from_place;
+    change.noalias() += wn * f.from_place.transpose();
+  }
+  const float length = sum.norm();
+  if (!(length > 1e-6F * weight)) return frame;
+  frame.normal = sum / length;
+  change.noalias() -= (sum / weight) * moment.transpose();
+  const Vector3f x = (std::abs(frame.normal[0]) < 0.7F ? Vector3f::UnitX() : Vector3f::UnitY())
+                         .cross(frame.normal)
+                         .normalized();
+  const Vector3f y = frame.normal.cross(x);
+  const Vector3f change_x = change * x, change_y = change * y;
+  const float angle = 0.5F * std::atan2(2.0F * change_x.dot(change_y),
+                                        change_x.squaredNorm() - change_y.squaredNorm());
+  frame.across = std::cos(angle) * x + std::sin(angle) * y;
+  frame.along = frame.normal.cross(frame.across);
+  return frame;
+}
 
 }  // namespace arris

@@ -213,7 +213,7 @@ TEST_F(MainWindowTest, AllPartitionsAreCutIntoFourSidesAtOnce) {
   run_both();
   const std::size_t found = document().partitions.partitions.size();
   const std::uint32_t before = rows();
-  QTest::keyClick(window.get(), Qt::Key_Q, Qt::ShiftModifier);
+  QTest::keyClick(window.get(), Qt::Key_W, Qt::ShiftModifier);
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
   EXPECT_EQ(window->session().history().entries().back().operation.name, "split_to_four_sides");
   EXPECT_GT(document().partitions.partitions.size(), found);

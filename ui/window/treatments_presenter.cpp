@@ -240,7 +240,7 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
       [this] {
         run_now({"smooth_boundaries", {{"partitions", selected_partitions()}}});
       });
-  add(menu, partition_actions_, tr("Cut into &four sides"), "Shift+Q",
+  add(menu, partition_actions_, tr("Cut into &four sides"), "Shift+W",
       tr("Cuts the selected partitions, or all, so that none has more than four sides or a hole"),
       found, [this] {
         const auto chosen = selected_partitions();
