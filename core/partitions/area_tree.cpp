@@ -653,6 +653,7 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
                      std::max(static_cast<double>(kinks->noise * radians), tree.noise.angle)};
   if (context.cancelled()) return cancelled();
   tree.smallest = pieces.of_face;
+  tree.table.points = {};  // windows are over
   return tree;
 }
 

@@ -6,17 +6,18 @@ namespace arris {
 
 Result<AreaTreePtr> SharedAreaTree::get(const SharpLines& lines, const Context& context) const {
   const std::lock_guard lock(working_);
-  if (tree_ && edges_ == lines.edges) return tree_;
+  if (AreaTreePtr known = known_.load(); known && edges_ == lines.edges) return known;
   Result<AreaTree> grown = grow_area_tree(*mesh_, lines, {}, context);
   if (!grown) return tl::unexpected<Error>(grown.error());
-  tree_ = std::make_shared<const AreaTree>(std::move(*grown));
+  auto tree = std::make_shared<const AreaTree>(std::move(*grown));
   edges_ = lines.edges;
-  return tree_;
+  known_.store(tree);
+  return tree;
 }
 
 std::size_t SharedAreaTree::bytes() const {
-  const std::lock_guard lock(working_);
-  return sizeof *this + (tree_ ? tree_->bytes() : 0);
+  const AreaTreePtr known = known_.load();
+  return sizeof *this + (known ? known->bytes() : 0);
 }
 
 }  // namespace arris

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -25,13 +26,13 @@ class SharedAreaTree {
   const MeshPtr& mesh() const { return mesh_; }
   /// Errors: cancelled.
   Result<AreaTreePtr> get(const SharpLines& lines, const Context& context = {}) const;
-  std::size_t bytes() const;
+  std::size_t bytes() const;  ///< Never waits.
 
  private:
   MeshPtr mesh_;
   mutable std::mutex working_;
-  mutable ChunkedArray<Origin> edges_;  // that tree_ was grown between
-  mutable AreaTreePtr tree_;
+  mutable ChunkedArray<Origin> edges_;  // that known_ was grown between
+  mutable std::atomic<AreaTreePtr> known_;
 };
 
 using SharedAreaTreePtr = std::shared_ptr<const SharedAreaTree>;

@@ -35,9 +35,11 @@ Document with_lines(Document document, const char* method) {
   return applied(std::move(document), {"find_sharp_lines", {{"method", method}}});
 }
 
-/// A segmented sample mould.
+/// A segmented sample mould; partitions by the method that goes with that of the lines.
 Document segmented_mould(const char* method) {
-  return applied(with_lines(document_of(sample_mould(1.8)), method), {"find_partitions", {}});
+  const bool walk = std::string_view(method) == "walk";
+  return applied(with_lines(document_of(sample_mould(1.8)), method),
+                 {"find_partitions", {{"method", walk ? "fronts" : "surfaces"}}});
 }
 
 const BorderEdge* candidate(const Document& document, EdgeId e) {
@@ -351,6 +353,16 @@ TEST(ExplainFace, TooFewFacesForAPartition) {
     }
   }
   EXPECT_GT(told, 0);
+}
+
+TEST(ExplainFace, BySurfacesItIsTheSurfaceAndWhatLiesBesideTheFace) {
+  const Document document = segmented_mould("normal_jump");
+  for (FaceId f = 0; f < document.mesh->face_count(); f += 7) {
+    const Explanation explanation = explain_face(document, f);
+    EXPECT_TRUE(explanation.holds);
+    EXPECT_TRUE(contains(explanation.headline, "one surface explains")) << explanation.headline;
+    EXPECT_EQ(explanation.tests.size(), 3u) << "its sides";
+  }
 }
 
 TEST(ExplainFace, JoinedWithoutAVoteAndFilledHolesAreToldApart) {
