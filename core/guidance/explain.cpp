@@ -504,7 +504,7 @@ Explanation explain_face(const Document& document, FaceId f) {
     result.headline = !result.holds
                           ? "In no partition: a correction took it away" + old + "."
                           : in + ", of faces that one surface explains at detail " + detail +
-                                ", between lines and kinks of curvature" + old + ".";
+                                ", or that no kink of curvature parts (a free area)" + old + ".";
     return result;
   }
   const FaceRules rules(document, step->parameters);

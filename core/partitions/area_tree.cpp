@@ -172,38 +172,6 @@ std::vector<Samples> samples_by_area(const Grains& grains, std::uint32_t count) 
   return result;
 }
 
-/// Connected faces of one label, numbered from 0; faces without one (no_id) go to what is nearest.
-FaceRegions connected(const FaceTable& table, const std::vector<std::uint32_t>& label) {
-  FaceRegions result{std::vector<std::uint32_t>(table.size(), no_id), 0};
-  std::vector<FaceId> front;
-  const auto flood = [&](const auto& admits) {
-    for (std::size_t i = 0; i < front.size(); ++i)
-      for (const FaceId g : table.neighbours[front[i]])
-        if (g != no_id && result.of_face[g] == no_id && admits(front[i], g)) {
-          result.of_face[g] = result.of_face[front[i]];
-          front.push_back(g);
-        }
-  };
-  for (FaceId first = 0; first < table.size(); ++first) {
-    if (label[first] == no_id || result.of_face[first] != no_id) continue;
-    result.of_face[first] = result.count++;
-    front.assign(1, first);
-    flood([&](FaceId f, FaceId g) { return label[f] == label[g]; });
-  }
-  front.clear();
-  for (FaceId f = 0; f < table.size(); ++f)
-    if (result.of_face[f] != no_id) front.push_back(f);
-  const auto any = [](FaceId, FaceId) { return true; };
-  flood(any);
-  for (FaceId first = 0; first < table.size(); ++first) {
-    if (result.of_face[first] != no_id) continue;
-    result.of_face[first] = result.count++;
-    front.assign(1, first);
-    flood(any);
-  }
-  return result;
-}
-
 /// Areas by the surfaces of their grains; where a grain has none, by the old areas.
 FaceRegions areas_by_surface(const FaceTable& table, const FaceRegions& areas, const Grains& grains,
                              const std::vector<std::uint32_t>& surface) {
@@ -214,7 +182,7 @@ FaceRegions areas_by_surface(const FaceTable& table, const FaceRegions& areas, c
   for (FaceId f = 0; f < table.size(); ++f)
     if (const std::uint32_t k = grains.of_face[f]; k != no_id)
       label[f] = surface[k] != no_id ? surface[k] : surfaces + areas.of_face[f];
-  return connected(table, label);
+  return connected_regions(table, label);
 }
 
 /// The pieces that old areas cut new ones into.
@@ -230,7 +198,7 @@ FaceRegions pieces_of(const FaceTable& table, const FaceRegions& areas, const Fa
     label[f] = static_cast<std::uint32_t>(std::lower_bound(known.begin(), known.end(), pairs[f]) -
                                           known.begin());
   });
-  return connected(table, label);
+  return connected_regions(table, label);
 }
 
 /// Joins the pieces of each area again, those with the least kink between them first, up to the

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/normal_window.h"
 
@@ -86,50 +84,28 @@ Result<CurvatureKinks> measure_curvature_kinks(const Mesh& mesh, const FaceTable
                                                const std::vector<std::uint8_t>& skipped,
                                                const CurvatureKinkOptions& options,
                                                const Context& context) {
-  const std::size_t vertices = mesh.vertex_count();
-  std::vector<Measured> measured(vertices);
+  std::vector<Measured> measured(mesh.vertex_count());
   const FallingExponential falling;
-  struct Local {
-    explicit Local(const FaceTable& all) : window(all) {}
-    FaceWindow window;
-    std::vector<FaceId> seeds;
-    std::vector<WindowFace> faces;
-  };
-  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
   const float reach = std::max(options.across, 1.2F * options.along);
-  // Share by share, so that progress is told and a stop is seen by one thread, in between.
-  constexpr std::size_t shares = 50;
-  for (std::size_t share = 0; share < shares; ++share) {
-    if (context.cancelled()) return cancelled();
-    context.report(static_cast<double>(share) / shares, "kinks of curvature");
-    const std::size_t first = vertices * share / shares;
-    parallel_for(
-        vertices * (share + 1) / shares - first,
-        [&](std::size_t i) {
-          const VertexId v = static_cast<VertexId>(first + i);
-          Local& local = locals.local();
-          local.seeds.clear();
-          bool on_line = false;  // its sides do not belong to one window
-          mesh.for_ring(v, [&](HalfEdgeId h) {
-            const FaceId f = mesh.face(h), g = mesh.face(Mesh::opposite(h));
-            if (f == no_id) return;
-            local.seeds.push_back(f);
-            if (g == no_id) return;
-            const auto& beside = table.neighbours[f];
-            on_line |= std::find(beside.begin(), beside.end(), g) == beside.end();
-          });
-          if (local.seeds.empty() || on_line) return;
-          const Vector3f& place = table.points[v];
-          local.faces.clear();
-          for (const FaceId f : local.window.grow(local.seeds, place, reach))
-            if (!skipped[f])
-              local.faces.push_back(
-                  {table.faces[f].centre - place, table.faces[f].normal, table.faces[f].area});
-          if (local.faces.size() >= least_faces)
-            measured[v] = measure(local.faces, options, falling);
-        },
-        256);
-  }
+  const Result<void> done = for_each_window(
+      mesh, table, reach, context, "kinks of curvature",
+      [&](VertexId v, const std::vector<FaceId>& faces, std::vector<WindowFace>& read) {
+        // On a line the two sides do not belong to one window.
+        bool on_line = false;
+        mesh.for_ring(v, [&](HalfEdgeId h) {
+          const FaceId f = mesh.face(h), g = mesh.face(Mesh::opposite(h));
+          if (f == no_id || g == no_id) return;
+          const auto& beside = table.neighbours[f];
+          on_line |= std::find(beside.begin(), beside.end(), g) == beside.end();
+        });
+        if (on_line) return;
+        for (const FaceId f : faces)
+          if (!skipped[f])
+            read.push_back({table.faces[f].centre - table.points[v], table.faces[f].normal,
+                            table.faces[f].area});
+        if (read.size() >= least_faces) measured[v] = measure(read, options, falling);
+      });
+  if (!done) return tl::unexpected<Error>(done.error());
   CurvatureKinks result;
   result.at_edge.assign(mesh.edge_count(), 0.0F);
   parallel_for(mesh.edge_count(), [&](std::size_t i) {

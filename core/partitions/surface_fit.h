@@ -32,8 +32,8 @@ struct Surface {
   /// plane: on it; sphere, torus: centre; cylinder: on the axis; cone: apex; free: origin of the
   /// height field.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  /// plane: normal; cylinder, cone, torus: axis (a cone's points away from where it opens to the
-  /// samples' normals: normal . axis = sin(half_angle) sign and all); free: direction of heights.
+  /// Unit. plane: normal; cylinder, cone, torus: axis, of a cone on the side that its normals lean
+  /// to (normal . axis = sin(half_angle)); free: direction of heights.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   double radius = 0.0;      ///< Of sphere and cylinder; of a torus, of its middle circle.
   double tube = 0.0;        ///< Of a torus: radius of the tube.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/normal_window.h"
 
@@ -88,42 +86,19 @@ Result<NormalJump> measure_normal_jump(const Mesh& mesh, const FaceTable& table,
   result.convex.assign(mesh.edge_count(), 0);
   result.at_edge.assign(mesh.edge_count(), 0.0F);
   const FallingExponential falling;
-  struct Local {
-    explicit Local(const FaceTable& faces) : window(faces) {}
-    FaceWindow window;
-    std::vector<FaceId> seeds;
-    std::vector<WindowFace> samples;
-  };
-  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
-  // Share by share, so that progress is told and a stop is seen by one thread, in between.
-  constexpr std::size_t shares = 50;
-  for (std::size_t share = 0; share < shares; ++share) {
-    if (context.cancelled()) return cancelled();
-    context.report(static_cast<double>(share) / shares, "normal jump");
-    const std::size_t first = vertices * share / shares;
-    parallel_for(
-        vertices * (share + 1) / shares - first,
-        [&](std::size_t i) {
-          const VertexId v = static_cast<VertexId>(first + i);
-          Local& local = locals.local();
-          local.seeds.clear();
-          mesh.for_ring(v, [&](HalfEdgeId h) {
-            if (mesh.face(h) != no_id) local.seeds.push_back(mesh.face(h));
-          });
-          if (local.seeds.empty()) return;
-          const Vector3f& place = table.points[v];
-          local.samples.clear();
-          for (const FaceId f : local.window.grow(local.seeds, place, options.reach))
-            local.samples.push_back(
-                {table.faces[f].centre - place, normals[f], table.faces[f].area});
-          const Measured measured = measure(local.samples, options, falling);
-          result.at_vertex[v] = measured.jump;
-          result.turn[v] = measured.turn;
-          direction[v] = measured.along;
-          normal[v] = measured.normal;
-        },
-        256);
-  }
+  const Result<void> done = for_each_window(
+      mesh, table, options.reach, context, "normal jump",
+      [&](VertexId v, const std::vector<FaceId>& faces, std::vector<WindowFace>& samples) {
+        for (const FaceId f : faces)
+          samples.push_back(
+              {table.faces[f].centre - table.points[v], normals[f], table.faces[f].area});
+        const Measured measured = measure(samples, options, falling);
+        result.at_vertex[v] = measured.jump;
+        result.turn[v] = measured.turn;
+        direction[v] = measured.along;
+        normal[v] = measured.normal;
+      });
+  if (!done) return tl::unexpected<Error>(done.error());
   parallel_for(mesh.edge_count(), [&](std::size_t i) {
     const EdgeId e = static_cast<EdgeId>(i);
     const auto [left, right] = mesh.edge_faces(e);

@@ -3,9 +3,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/base/context.h"
+#include "core/base/parallel.h"
+#include "core/base/result.h"
 #include "core/mesh/mesh.h"
+#include "core/sharp_lines/face_table.h"
 
 /// What the measures over windows of faces have in common.
 namespace arris {
@@ -83,6 +90,44 @@ inline WindowFrame frame_of(const std::vector<WindowFace>& faces, float spread,
   frame.across = std::cos(angle) * x + std::sin(angle) * y;
   frame.along = frame.normal.cross(frame.across);
   return frame;
+}
+
+/// Grows a window of faces about each vertex that has some, on all threads: `visit(v, faces,
+/// scratch)` gets those within `reach` (mean edges) and an empty vector of its thread to fill. It
+/// may write only what belongs to v. Errors: cancelled.
+template <class Visit>
+Result<void> for_each_window(const Mesh& mesh, const FaceTable& table, float reach,
+                             const Context& context, std::string_view what, const Visit& visit) {
+  struct Local {
+    explicit Local(const FaceTable& all) : window(all) {}
+    FaceWindow window;
+    std::vector<FaceId> seeds;
+    std::vector<WindowFace> scratch;
+  };
+  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
+  // Share by share, so that progress is told and a stop is seen by one thread, in between.
+  constexpr std::size_t shares = 50;
+  const std::size_t vertices = mesh.vertex_count();
+  for (std::size_t share = 0; share < shares; ++share) {
+    if (context.cancelled()) return cancelled();
+    context.report(static_cast<double>(share) / shares, what);
+    const std::size_t first = vertices * share / shares;
+    parallel_for(
+        vertices * (share + 1) / shares - first,
+        [&](std::size_t i) {
+          const VertexId v = static_cast<VertexId>(first + i);
+          Local& local = locals.local();
+          local.seeds.clear();
+          mesh.for_ring(v, [&](HalfEdgeId h) {
+            if (mesh.face(h) != no_id) local.seeds.push_back(mesh.face(h));
+          });
+          if (local.seeds.empty()) return;
+          local.scratch.clear();
+          visit(v, local.window.grow(local.seeds, table.points[v], reach), local.scratch);
+        },
+        256);
+  }
+  return {};
 }
 
 }  // namespace arris

@@ -50,45 +50,55 @@ FaceRegions watershed(const FaceTable& table, const std::vector<float>& height,
 
 void smooth_borders(const FaceTable& table, const std::vector<float>& edge_length, int rounds,
                     std::vector<std::uint32_t>& of_face) {
-  std::vector<FaceId> along;
-  std::vector<std::uint8_t> queued(table.size(), 0);
-  for (FaceId f = 0; f < table.size(); ++f)
+  sweep_borders(table, rounds, of_face, [&](FaceId f) {
+    const auto shared_with = [&](std::uint32_t region) {
+      float length = 0.0F;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const FaceId g = table.neighbours[f][k]; g != no_id && of_face[g] == region)
+          length += edge_length[table.sides[f][k]];
+      return length;
+    };
+    float most = 0.0F;
+    std::uint32_t best = of_face[f];
     for (const FaceId g : table.neighbours[f])
-      if (g != no_id && of_face[g] != of_face[f] && !queued[f]) {
-        queued[f] = 1;
-        along.push_back(f);
-      }
-  std::vector<FaceId> next;
-  for (int round = 0; round < rounds && !along.empty(); ++round) {
-    next.clear();
-    for (const FaceId f : along) queued[f] = 0;
-    for (const FaceId f : along) {
-      const auto shared_with = [&](std::uint32_t region) {
-        float length = 0.0F;
-        for (std::size_t k = 0; k < 3; ++k)
-          if (const FaceId g = table.neighbours[f][k]; g != no_id && of_face[g] == region)
-            length += edge_length[table.sides[f][k]];
-        return length;
-      };
-      float most = 0.0F;
-      std::uint32_t best = of_face[f];
-      for (const FaceId g : table.neighbours[f])
-        if (g != no_id && of_face[g] != of_face[f])
-          if (const float length = shared_with(of_face[g]); length > most) {
-            most = length;
-            best = of_face[g];
-          }
-      if (best == of_face[f] || most <= shared_with(of_face[f]) * 1.0001F) continue;
-      of_face[f] = best;
-      for (const FaceId g : table.neighbours[f])
-        if (g != no_id && !queued[g]) {
-          queued[g] = 1;
-          next.push_back(g);
+      if (g != no_id && of_face[g] != of_face[f])
+        if (const float length = shared_with(of_face[g]); length > most) {
+          most = length;
+          best = of_face[g];
         }
-    }
-    std::sort(next.begin(), next.end());
-    along.swap(next);
+    return most > shared_with(of_face[f]) * 1.0001F ? best : of_face[f];
+  });
+}
+
+FaceRegions connected_regions(const FaceTable& table, const std::vector<std::uint32_t>& labels) {
+  FaceRegions result{std::vector<std::uint32_t>(table.size(), no_id), 0};
+  std::vector<FaceId> front;
+  const auto flood = [&](const auto& admits) {
+    for (std::size_t i = 0; i < front.size(); ++i)
+      for (const FaceId g : table.neighbours[front[i]])
+        if (g != no_id && result.of_face[g] == no_id && admits(front[i], g)) {
+          result.of_face[g] = result.of_face[front[i]];
+          front.push_back(g);
+        }
+  };
+  for (FaceId first = 0; first < table.size(); ++first) {
+    if (labels[first] == no_id || result.of_face[first] != no_id) continue;
+    result.of_face[first] = result.count++;
+    front.assign(1, first);
+    flood([&](FaceId f, FaceId g) { return labels[f] == labels[g]; });
   }
+  front.clear();
+  for (FaceId f = 0; f < table.size(); ++f)
+    if (result.of_face[f] != no_id) front.push_back(f);
+  const auto any = [](FaceId, FaceId) { return true; };
+  flood(any);
+  for (FaceId first = 0; first < table.size(); ++first) {
+    if (result.of_face[first] != no_id) continue;
+    result.of_face[first] = result.count++;
+    front.assign(1, first);
+    flood(any);
+  }
+  return result;
 }
 
 }  // namespace arris

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,5 +34,41 @@ FaceRegions watershed(const FaceTable& table, const std::vector<float>& height,
 /// that makes the border shorter. `rounds`: at most; one round looks at the faces along borders.
 void smooth_borders(const FaceTable& table, const std::vector<float>& edge_length, int rounds,
                     std::vector<std::uint32_t>& of_face);
+
+/// Looks at the faces along the borders of regions, round after round, at most `rounds`:
+/// `choose(f)` gives the region that face f is to be of, its own where it stays. After the first
+/// round only the neighbours of faces that changed are looked at.
+template <class Choose>
+void sweep_borders(const FaceTable& table, int rounds, std::vector<std::uint32_t>& of_face,
+                   const Choose& choose) {
+  std::vector<FaceId> along, next;
+  std::vector<std::uint8_t> queued(table.size(), 0);
+  for (FaceId f = 0; f < table.size(); ++f)
+    for (const FaceId g : table.neighbours[f])
+      if (g != no_id && of_face[g] != of_face[f] && !queued[f]) {
+        queued[f] = 1;
+        along.push_back(f);
+      }
+  for (int round = 0; round < rounds && !along.empty(); ++round) {
+    next.clear();
+    for (const FaceId f : along) queued[f] = 0;
+    for (const FaceId f : along) {
+      const std::uint32_t best = choose(f);
+      if (best == of_face[f]) continue;
+      of_face[f] = best;
+      for (const FaceId g : table.neighbours[f])
+        if (g != no_id && !queued[g]) {
+          queued[g] = 1;
+          next.push_back(g);
+        }
+    }
+    std::sort(next.begin(), next.end());
+    along.swap(next);
+  }
+}
+
+/// Connected faces of one label, numbered from 0; faces without one (no_id) go to what is nearest,
+/// and are regions of their own where nothing is.
+FaceRegions connected_regions(const FaceTable& table, const std::vector<std::uint32_t>& labels);
 
 }  // namespace arris
