@@ -1,34 +1,75 @@
 #include "core/partitions/area_borders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/base/parallel.h"
+#include "core/sharp_lines/watershed.h"
 
 namespace arris {
 
-void settle_borders(const FaceTable& table, const std::vector<float>& edge_length,
-                    const std::vector<FittedSurface>& surfaces, const SurfaceNoise& noise,
-                    const std::vector<std::uint8_t>& banded, const AreaBorderOptions& options,
-                    std::vector<std::uint32_t>& labels) {
-  const auto misfit = [&](FaceId f, std::uint32_t area) {
-    if (banded[f]) return 0.0;
-    const Surface& surface = surfaces[area].surface;
-    if (surface.type == SurfaceType::free) return options.free;
-    const Surface::At at = surface.at(table.faces[f].centre.cast<double>());
-    const double d = at.distance / noise.distance;
-    const double turn =
-        std::max(0.0, 2.0 * (1.0 - at.normal.dot(table.faces[f].normal.cast<double>())));
-    return std::min(options.most, 0.5 * (d * d + turn / (2.0 * noise.angle * noise.angle)));
+namespace {
+
+/// How badly a face agrees with the surface of an area, limited.
+double misfit_of(const AreaGround& ground, const AreaBorderOptions& options, FaceId f,
+                 std::uint32_t area) {
+  if (ground.banded[f]) return 0.0;
+  const Surface& surface = ground.surfaces[area].surface;
+  if (surface.type == SurfaceType::free) return options.free;
+  const FaceTable::Face& face = ground.table.faces[f];
+  const Surface::At at = surface.at(face.centre.cast<double>());
+  const double d = at.distance / ground.noise.distance;
+  const double turn = std::max(0.0, 2.0 * (1.0 - at.normal.dot(face.normal.cast<double>())));
+  return std::min(options.most,
+                  0.5 * (d * d + turn / (2.0 * ground.noise.angle * ground.noise.angle)));
+}
+
+/// The faces round each of some, and how much they count.
+struct Windows {
+  struct Part {
+    FaceId face;
+    float weight;
   };
+  std::vector<std::vector<Part>> of;
+};
+
+Windows windows_about(const FaceTable& table, const std::vector<FaceId>& faces, float spread) {
+  Windows windows;
+  windows.of.resize(faces.size());
+  tbb::enumerable_thread_specific<FaceWindow> locals([&] { return FaceWindow(table); });
+  const float falling = 0.5F / (spread * spread);
+  parallel_for(
+      faces.size(),
+      [&](std::size_t k) {
+        const FaceTable::Face& middle = table.faces[faces[k]];
+        for (const FaceId g :
+             locals.local().grow(std::array{faces[k]}, middle.centre, 2.2F * spread)) {
+          const float distance2 = (table.faces[g].centre - middle.centre).squaredNorm();
+          windows.of[k].push_back({g, table.faces[g].area * std::exp(-falling * distance2)});
+        }
+      },
+      256);
+  return windows;
+}
+
+}  // namespace
+
+void settle_borders(const AreaGround& ground, const AreaBorderOptions& options,
+                    std::vector<std::uint32_t>& labels) {
+  const FaceTable& table = ground.table;
   sweep_borders(table, options.rounds, labels, [&](FaceId f) {
     const auto price = [&](std::uint32_t area) {
       double border = 0.0;
       for (std::size_t k = 0; k < 3; ++k)
         if (const FaceId g = table.neighbours[f][k]; g != no_id && labels[g] != area)
-          border += static_cast<double>(edge_length[table.sides[f][k]]);
-      return misfit(f, area) * static_cast<double>(table.faces[f].area / mean_face_area) +
+          border += static_cast<double>(ground.edge_length[table.sides[f][k]]);
+      return misfit_of(ground, options, f, area) *
+                 static_cast<double>(table.faces[f].area / mean_face_area) +
              options.length * border;
     };
     double least = price(labels[f]) - 1e-4;
@@ -43,44 +84,96 @@ void settle_borders(const FaceTable& table, const std::vector<float>& edge_lengt
   });
 }
 
-void join_specks(const FaceTable& table, const std::vector<float>& edge_length, std::uint32_t least,
-                 std::vector<std::uint32_t>& labels) {
-  const FaceRegions pieces = connected_regions(table, labels);
-  std::vector<std::uint32_t> faces_of(pieces.count, 0), order;
-  std::vector<FaceId> first_of(pieces.count, no_id);
-  for (FaceId f = 0; f < table.size(); ++f) {
-    ++faces_of[pieces.of_face[f]];
-    first_of[pieces.of_face[f]] = std::min(first_of[pieces.of_face[f]], f);
+void straighten_borders(const AreaGround& ground, const AreaBorderOptions& options,
+                        std::vector<std::uint32_t>& labels) {
+  const FaceTable& table = ground.table;
+  std::vector<EdgeId> borders;
+  for (FaceId f = 0; f < table.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const FaceId g = table.neighbours[f][k]; g != no_id && f < g && labels[f] != labels[g])
+        borders.push_back(table.sides[f][k]);
+  const std::vector<float> distance = distances_from(ground.mesh, table, borders, options.reach);
+  std::vector<FaceId> near;
+  for (FaceId f = 0; f < table.size(); ++f)
+    if (distance[f] < options.reach) near.push_back(f);
+  const Windows windows = windows_about(table, near, options.spread);
+  std::vector<std::uint32_t> next(near.size());
+  for (int round = 0; round < options.straightenings; ++round) {
+    parallel_for(
+        near.size(),
+        [&](std::size_t k) {
+          const FaceId f = near[k];
+          std::vector<std::pair<std::uint32_t, double>> shares;
+          double all = 0.0;
+          for (const Windows::Part& part : windows.of[k]) {
+            const std::uint32_t label = labels[part.face];
+            auto share = std::ranges::find(shares, label, &std::pair<std::uint32_t, double>::first);
+            if (share == shares.end()) share = shares.insert(share, {label, 0.0});
+            share->second += static_cast<double>(part.weight);
+            all += static_cast<double>(part.weight);
+          }
+          next[k] = labels[f];
+          if (shares.size() < 2) return;
+          double best = -1e9;
+          for (const auto& [label, share] : shares) {
+            double worth = options.straight * share / all - misfit_of(ground, options, f, label);
+            if (label == labels[f]) worth += 1e-4;
+            if (worth > best || (worth == best && label < next[k])) {
+              best = worth;
+              next[k] = label;
+            }
+          }
+        },
+        256);
+    bool changed = false;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      changed = changed || labels[near[k]] != next[k];
+      labels[near[k]] = next[k];
+    }
+    if (!changed) break;
   }
-  // Smallest first, so that what they go to may be a speck no longer.
-  for (std::uint32_t k = 0; k < pieces.count; ++k)
-    if (faces_of[k] < least) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return faces_of[a] < faces_of[b]; });
-  for (const std::uint32_t k : order) {
-    // The piece may have grown since by others that joined it.
-    std::vector<FaceId> faces{first_of[k]};
-    std::set<FaceId> in{first_of[k]};
-    const std::uint32_t label = labels[first_of[k]];
-    std::map<std::uint32_t, float> beside;
-    for (std::size_t i = 0; i < faces.size() && faces.size() < least; ++i)
-      for (std::size_t s = 0; s < 3; ++s) {
-        const FaceId g = table.neighbours[faces[i]][s];
-        if (g == no_id) continue;
-        if (labels[g] != label) {
-          beside[labels[g]] += edge_length[table.sides[faces[i]][s]];
-        } else if (in.insert(g).second) {
-          faces.push_back(g);
-        }
-      }
-    if (faces.size() >= least || beside.empty()) continue;
-    std::uint32_t best = beside.begin()->first;
-    for (const auto& [other, length] : beside)
-      if (length > beside[best]) best = other;
-    for (const FaceId f : faces) labels[f] = best;
+  smooth_borders(table, ground.edge_length, options.teeth, labels);
+}
+
+void keep_largest_pieces(const FaceTable& table, const std::vector<float>& edge_length,
+                         std::vector<std::uint32_t>& labels) {
+  // Only to pieces that stay, so that each round leaves fewer: one among others that go waits.
+  for (;;) {
+    const FaceRegions pieces = connected_regions(table, labels);
+    struct Piece {
+      std::uint32_t label;
+      float area = 0.0F;
+    };
+    std::vector<Piece> piece(pieces.count);
+    std::map<std::uint32_t, std::uint32_t> largest;  // by label
+    for (FaceId f = 0; f < table.size(); ++f) {
+      piece[pieces.of_face[f]].label = labels[f];
+      piece[pieces.of_face[f]].area += table.faces[f].area;
+    }
+    for (std::uint32_t k = 0; k < pieces.count; ++k) {
+      const auto [entry, fresh] = largest.try_emplace(piece[k].label, k);
+      if (!fresh && piece[k].area > piece[entry->second].area) entry->second = k;
+    }
+    if (largest.size() == pieces.count) return;
+    std::map<std::uint32_t, std::map<std::uint32_t, float>> beside;  // of pieces that go
+    for (FaceId f = 0; f < table.size(); ++f) {
+      const std::uint32_t own = pieces.of_face[f];
+      if (largest.at(labels[f]) == own) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const FaceId g = table.neighbours[f][k];
+            g != no_id && largest.at(labels[g]) == pieces.of_face[g])
+          beside[own][labels[g]] += edge_length[table.sides[f][k]];
+    }
+    if (beside.empty()) return;
+    std::vector<std::uint32_t> to(pieces.count, no_id);
+    for (const auto& [own, lengths] : beside) {
+      to[own] = lengths.begin()->first;
+      for (const auto& [label, length] : lengths)
+        if (length > lengths.at(to[own])) to[own] = label;
+    }
+    for (FaceId f = 0; f < table.size(); ++f)
+      if (to[pieces.of_face[f]] != no_id) labels[f] = to[pieces.of_face[f]];
   }
-  // Each piece that is left is an area of its own.
-  labels = connected_regions(table, labels).of_face;
 }
 
 }  // namespace arris

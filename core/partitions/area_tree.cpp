@@ -1,167 +1,28 @@
 #include "core/partitions/area_tree.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include <tbb/parallel_sort.h>
 
 #include "core/base/parallel.h"
-#include "core/partitions/surface_growing.h"
+#include "core/partitions/surface_noise.h"
 #include "core/sharp_lines/region_joining.h"
 
 namespace arris {
 
 namespace {
 
-constexpr float radians = static_cast<float>(std::numbers::pi / 180.0);
+constexpr double radians = std::numbers::pi / 180.0;
 constexpr float never = 1e9F;
 /// HeightHistogram has bins of 2.5 degrees: kinks are a tenth of that.
 constexpr float finer = 10.0F;
-
-/// No neighbours over sharp edges.
-FaceTable table_between_lines(const Mesh& mesh, const SharpLines& lines) {
-  FaceTable table(mesh);
-  parallel_for(table.size(), [&](std::size_t f) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (lines.is_sharp(table.sides[f][k])) table.neighbours[f][k] = no_id;
-  });
-  return table;
-}
-
-/// 1 for faces whose centre lies within `options.band` of a line, on their side of it. Where strips
-/// are so narrow that nothing else is left, only for those within `options.narrow_band`.
-std::vector<std::uint8_t> faces_beside_lines(const Mesh& mesh, const SharpLines& lines,
-                                             const FaceTable& table,
-                                             const AreaTreeOptions& options) {
-  std::vector<float> distance(table.size(), never);
-  std::vector<EdgeId> nearest(table.size(), no_id);
-  std::vector<FaceId> front;
-  const auto distance_to = [&](FaceId f, EdgeId e) {
-    const EdgeVertices& ends = mesh.edge(e);
-    return (table.faces[f].centre - (table.points[ends[0]] + table.points[ends[1]]) / 2.0F).norm();
-  };
-  const auto reach = [&](FaceId f, EdgeId e, bool always) {
-    const float d = distance_to(f, e);
-    if (d >= distance[f] || (!always && d >= options.band)) return;
-    distance[f] = d;
-    nearest[f] = e;
-    front.push_back(f);
-  };
-  for (EdgeId e = 0; e < mesh.edge_count(); ++e)
-    if (lines.is_sharp(e))
-      for (const FaceId f : mesh.edge_faces(e))
-        if (f != no_id) reach(f, e, true);
-  for (std::size_t i = 0; i < front.size(); ++i)
-    for (const FaceId g : table.neighbours[front[i]])
-      if (g != no_id) reach(g, nearest[front[i]], false);
-  std::vector<std::uint8_t> beside(table.size());
-  for (FaceId f = 0; f < table.size(); ++f) beside[f] = nearest[f] != no_id;
-  // Rings about the faces that vote: what they do not reach is narrow.
-  std::vector<std::uint8_t> rings(table.size(), 0);
-  front.clear();
-  for (FaceId f = 0; f < table.size(); ++f)
-    if (!beside[f]) {
-      rings[f] = 1;
-      front.push_back(f);
-    }
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (rings[front[i]] > options.narrow_rings) break;
-    for (const FaceId g : table.neighbours[front[i]])
-      if (g != no_id && rings[g] == 0) {
-        rings[g] = static_cast<std::uint8_t>(rings[front[i]] + 1);
-        front.push_back(g);
-      }
-  }
-  for (FaceId f = 0; f < table.size(); ++f)
-    if (rings[f] == 0 && distance[f] > options.narrow_band) beside[f] = 0;
-  return beside;
-}
-
-/// Regions renumbered from 0 by their lowest face.
-FaceRegions renumbered(std::vector<std::uint32_t> labels, std::size_t most) {
-  FaceRegions result{std::move(labels), 0};
-  std::vector<std::uint32_t> number(most, no_id);
-  for (std::uint32_t& label : result.of_face) {
-    if (number[label] == no_id) number[label] = result.count++;
-    label = number[label];
-  }
-  return result;
-}
-
-/// The areas that a watershed of the kinks leaves, weak ones joined. Faces beside lines do not
-/// vote: they go to what is nearest; where there is nothing else they are an area by themselves.
-FaceRegions smallest_areas(const Mesh& mesh, const FaceTable& table,
-                           const std::vector<std::uint8_t>& banded, const CurvatureKinks& kinks,
-                           const std::vector<float>& edge_length, const AreaTreeOptions& options) {
-  std::vector<std::array<FaceId, 2>> edge_faces(mesh.edge_count(), {no_id, no_id});
-  std::vector<EdgeId> order;
-  for (FaceId f = 0; f < table.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const FaceId g = table.neighbours[f][k];
-      if (g == no_id || g < f || banded[f] || banded[g]) continue;
-      edge_faces[table.sides[f][k]] = {f, g};
-      order.push_back(table.sides[f][k]);
-    }
-  tbb::parallel_sort(order.begin(), order.end(), [&](EdgeId a, EdgeId b) {
-    return kinks.at_edge[a] != kinks.at_edge[b] ? kinks.at_edge[a] < kinks.at_edge[b] : a < b;
-  });
-  FaceRegions regions = watershed(table, kinks.at_edge, order, edge_faces, options.watershed);
-  std::vector<float> areas(regions.count, 0.0F);
-  for (FaceId f = 0; f < table.size(); ++f) areas[regions.of_face[f]] += table.faces[f].area;
-  RegionJoining<HeightHistogram> joining(std::move(areas));
-  for (const EdgeId e : order) {
-    const std::uint32_t a = regions.of_face[edge_faces[e][0]],
-                        b = regions.of_face[edge_faces[e][1]];
-    if (a != b) joining.border(a, b).add(finer * kinks.at_edge[e], edge_length[e]);
-  }
-  std::vector<std::uint32_t> parent(regions.count);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t r) {
-    while (parent[r] != r) r = parent[r] = parent[parent[r]];
-    return r;
-  };
-  const float least_area = options.first_area * mean_face_area;
-  joining.run(
-      finer * options.first_cut,
-      [&](const HeightHistogram& heights, std::uint32_t a, std::uint32_t b) {
-        const float cost = heights.quantile(options.first_quantile);
-        const float smaller = std::min(joining.area(a), joining.area(b));
-        return smaller < least_area ? cost * smaller / least_area : cost;
-      },
-      [&](const auto& join, const HeightHistogram&) { parent[join.gone] = join.into; });
-  for (std::uint32_t& r : regions.of_face) r = root(r);
-
-  // What lies beside lines, ring by ring.
-  std::vector<FaceId> front;
-  std::vector<std::uint8_t> open(banded);
-  for (FaceId f = 0; f < table.size(); ++f)
-    if (!open[f] &&
-        std::ranges::any_of(table.neighbours[f], [&](FaceId g) { return g != no_id && open[g]; }))
-      front.push_back(f);
-  const auto flood = [&] {
-    for (std::size_t i = 0; i < front.size(); ++i)
-      for (const FaceId g : table.neighbours[front[i]])
-        if (g != no_id && open[g]) {
-          open[g] = 0;
-          regions.of_face[g] = regions.of_face[front[i]];
-          front.push_back(g);
-        }
-    front.clear();
-  };
-  flood();
-  for (FaceId f = 0; f < table.size(); ++f)
-    if (open[f]) {
-      open[f] = 0;
-      front.push_back(f);
-      flood();
-    }
-  return renumbered(std::move(regions.of_face), table.size());
-}
 
 using Samples = std::vector<SurfaceSample>;
 
@@ -203,10 +64,10 @@ FaceRegions pieces_of(const FaceTable& table, const FaceRegions& areas, const Fa
 
 /// Joins the pieces of each area again, those with the least kink between them first, up to the
 /// height `most`.
-std::vector<AreaTree::Join> join_pieces(const FaceTable& table, const FaceRegions& pieces,
-                                        const FaceRegions& areas, const CurvatureKinks& kinks,
-                                        const std::vector<float>& edge_length,
-                                        const std::vector<FittedSurface>& surfaces, float most) {
+std::vector<AreaJoin> join_pieces(const FaceTable& table, const FaceRegions& pieces,
+                                  const FaceRegions& areas, const CurvatureKinks& kinks,
+                                  const std::vector<float>& edge_length,
+                                  const std::vector<FittedSurface>& surfaces, float most) {
   std::vector<float> area(pieces.count, 0.0F);
   std::vector<std::uint32_t> of_piece(pieces.count);
   for (FaceId f = 0; f < table.size(); ++f) {
@@ -221,7 +82,7 @@ std::vector<AreaTree::Join> join_pieces(const FaceTable& table, const FaceRegion
                                                    areas.of_face[f] == areas.of_face[g])
         joining.border(pieces.of_face[f], pieces.of_face[g])
             .add(finer * kinks.at_edge[table.sides[f][k]], edge_length[table.sides[f][k]]);
-  std::vector<AreaTree::Join> joins;
+  std::vector<AreaJoin> joins;
   joining.run(
       never,
       [](const HeightHistogram& heights, std::uint32_t, std::uint32_t) {
@@ -233,339 +94,196 @@ std::vector<AreaTree::Join> join_pieces(const FaceTable& table, const FaceRegion
   std::stable_sort(joins.begin(), joins.end(),
                    [](const auto& a, const auto& b) { return a.height < b.height; });
   // From degrees to heights below those of joins between areas.
-  for (AreaTree::Join& join : joins) join.height = most * join.height / (1.0F + join.height);
+  for (AreaJoin& join : joins) join.height = most * join.height / (1.0F + join.height);
   return joins;
 }
 
-/// How samples scatter about the surfaces of the areas they are of, from those that have enough:
-/// medians, so that areas which are several surfaces do not count.
-SurfaceNoise noise_of(const std::vector<Samples>& samples, const SurfaceNoise& least) {
-  struct Scatter {
-    double distance, angle, weight;
-  };
-  constexpr std::size_t enough = 10;
-  std::vector<Scatter> scatters(samples.size(), {0.0, 0.0, 0.0});
-  parallel_for(
-      samples.size(),
-      [&](std::size_t a) {
-        const Samples own = thinned(samples[a], 128);
-        if (own.size() < enough) return;
-        for (const FittedSurface& fit : {fit_surface(own, least), fit_free_surface(own, least)}) {
-          if (!std::isfinite(fit.misfit)) continue;
-          std::vector<double> distances, turns;
-          for (const SurfaceSample& s : own) {
-            const Surface::At at = fit.surface.at(s.point);
-            distances.push_back(std::abs(at.distance));
-            turns.push_back(std::sqrt(std::max(0.0, 2.0 * (1.0 - at.normal.dot(s.normal)))));
-          }
-          const auto median = [](std::vector<double>& values) {
-            const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-            std::nth_element(values.begin(), middle, values.end());
-            return *middle;
-          };
-          // Of a Gaussian distance, and of the length of a Gaussian turn in two directions.
-          const double distance = median(distances) / 0.6745, angle = median(turns) / 1.1774;
-          Scatter& best = scatters[a];
-          if (best.weight > 0.0 && angle >= best.angle) continue;
-          best = {distance, angle, static_cast<double>(samples[a].size())};
-        }
-      },
-      4);
-  std::erase_if(scatters, [](const Scatter& s) { return !(s.weight > 0.0); });
-  const auto middle_of = [&](double Scatter::*value) {
-    std::ranges::sort(scatters, {}, value);
-    double half = 0.0, sum = 0.0;
-    for (const Scatter& s : scatters) half += s.weight / 2.0;
-    for (const Scatter& s : scatters)
-      if ((sum += s.weight) >= half) return s.*value;
-    return 0.0;
-  };
-  return {std::max(least.distance, middle_of(&Scatter::distance)),
-          std::max(least.angle, middle_of(&Scatter::angle))};
+/// Of each piece the one that it is joined to where areas are joined up to `height`, and the
+/// surface of that.
+struct Roots {
+  std::vector<std::uint32_t> of_piece;
+  std::vector<FittedSurface> surfaces;  // of each piece, right for roots
+
+  Roots(std::vector<FittedSurface> of_pieces, const std::vector<AreaJoin>& joins, float height)
+      : of_piece(of_pieces.size()), surfaces(std::move(of_pieces)) {
+    std::iota(of_piece.begin(), of_piece.end(), 0U);
+    for (const AreaJoin& join : joins) {
+      if (join.height > height) break;
+      of_piece[join.gone] = join.into;
+      surfaces[join.into] = join.surface;
+    }
+    for (std::uint32_t& parent : of_piece) {
+      std::uint32_t root = parent;
+      while (of_piece[root] != root) root = of_piece[root];
+      parent = root;
+    }
+  }
+};
+
+std::vector<FittedSurface> surfaces_of(const AreaTree& tree) {
+  std::vector<FittedSurface> surfaces;
+  for (const AreaTree::Piece& piece : tree.pieces) surfaces.push_back(piece.surface);
+  return surfaces;
 }
 
-/// A border between two areas while areas are joined.
-struct AreaBorder {
-  std::array<std::uint32_t, 2> areas{no_id, no_id};  // on its first and second side, as begun with
-  BorderSums sums;
-  float line = 0.0F;                         // length of line between the two
-  float known = -1.0F;                       // the cost as last worked out; negative: not known
-  std::array<std::uint32_t, 2> known_for{};  // the states of the areas then, in any order
-  const std::vector<std::uint32_t>* parent = nullptr;
+/// Moves the borders of the usual areas to where they belong, and those of the pieces inside
+/// each. `table` is as before in the end.
+void settle(const Mesh& mesh, AreaTree& tree, FaceTable& table,
+            const std::vector<float>& edge_length, const AreaBorderOptions& options) {
+  const std::vector<FittedSurface> surfaces = surfaces_of(tree);
+  const Roots usual(surfaces, tree.joins, 1.0F);
+  std::vector<std::uint32_t> area(tree.of_face.size());
+  parallel_for(area.size(), [&](std::size_t f) { area[f] = usual.of_piece[tree.of_face[f]]; });
+  const AreaGround over{mesh, table, edge_length, usual.surfaces, tree.face_noise, tree.banded};
+  settle_borders(over, options, area);
+  straighten_borders(over, options, area);
+  keep_largest_pieces(table, edge_length, area);
 
-  std::uint32_t root(std::size_t side) const {
-    std::uint32_t a = areas[side];
-    while ((*parent)[a] != a) a = (*parent)[a];
-    return a;
+  const std::vector<std::array<FaceId, 3>> neighbours = table.neighbours;
+  parallel_for(area.size(), [&](std::size_t f) {
+    for (FaceId& g : table.neighbours[f])
+      if (g != no_id && area[g] != area[f]) g = no_id;
+  });
+  // A face that went over takes the piece of what is nearest to it there.
+  std::vector<FaceId> front;
+  for (FaceId f = 0; f < table.size(); ++f) {
+    if (usual.of_piece[tree.of_face[f]] != area[f])
+      tree.of_face[f] = no_id;
+    else
+      front.push_back(f);
   }
-  void absorb(const AreaBorder& other) {
-    const bool turned = root(0) == other.root(1) || root(1) == other.root(0);
-    sums.add(turned ? other.sums.turned() : other.sums);
-    line += other.line;
-    known = -1.0F;
-  }
-};
-
-/// Joins areas, round after round.
-class AreaJoining {
- public:
-  AreaJoining(const Mesh& mesh, const FaceTable& table, const SharpLines& lines,
-              const FaceRegions& areas, const std::vector<std::uint8_t>& banded,
-              const AreaTreeOptions& options, const SurfaceNoise& noise, float face_noise,
-              std::vector<Samples> samples)
-      : mesh_(mesh),
-        table_(table),
-        lines_(lines),
-        banded_(banded),
-        options_(options),
-        noise_(noise),
-        face_noise_(face_noise),
-        base_(areas.of_face),
-        parent_(areas.count),
-        area_(areas.count, 0.0F),
-        voting_(areas.count, 0.0F),
-        samples_(std::move(samples)),
-        fits_(areas.count),
-        state_(areas.count),
-        next_state_(areas.count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    std::iota(state_.begin(), state_.end(), 0U);
-    for (FaceId f = 0; f < table.size(); ++f) {
-      area_[base_[f]] += table.faces[f].area / mean_face_area;
-      if (!banded[f]) voting_[base_[f]] += table.faces[f].area / mean_face_area;
-    }
-    state_area_ = voting_;
-    parallel_for(
-        areas.count,
-        [&](std::size_t a) {
-          samples_[a] = thinned(std::move(samples_[a]), options.samples);
-          fits_[a] = fit_of(samples_[a]);
-        },
-        16);
-  }
-
-  const std::vector<FittedSurface>& surfaces() const { return fits_; }
-
-  std::vector<AreaTree::Join> run(const Context& context) {
-    std::vector<float> heights;
-    for (int k = 1; k <= options_.rounds; ++k)
-      heights.push_back(static_cast<float>(k) / static_cast<float>(options_.rounds));
-    for (const float height : {1.5F, 2.5F, 5.0F, 20.0F}) heights.push_back(height);
-    for (std::size_t k = 0; k < heights.size() && !context.cancelled(); ++k) {
-      context.report(static_cast<double>(k) / static_cast<double>(heights.size()), "areas");
-      join_up_to(heights[k]);
-    }
-    return std::move(joins_);
-  }
-
- private:
-  std::uint32_t root(std::uint32_t a) const {
-    while (parent_[a] != a) a = parent_[a];
-    return a;
-  }
-  FittedSurface fit_of(const Samples& samples) const {
-    if (samples.empty()) return {};
-    FittedSurface fit = fit_surface(samples, noise_);
-    // Any smooth surface is a torus for a while, and one that bends little a sphere or cylinder:
-    // they say something where the torus is a blend and the others bend noticeably.
-    const Surface& surface = fit.surface;
-    const double torus = std::min(surface.tube, std::abs(surface.radius - surface.tube));
-    if ((surface.type == SurfaceType::torus && torus > static_cast<double>(options_.blend)) ||
-        ((surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder) &&
-         surface.radius > static_cast<double>(options_.wide)))
-      fit.misfit = std::max(fit.misfit, static_cast<double>(options_.free));
-    return fit;
-  }
-  /// What an area costs, in misfits of a sample: by its surface, or as a free one.
-  double price_of(double misfit, double samples) const {
-    return samples * std::min(misfit, static_cast<double>(options_.free));
-  }
-  float cost_of(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
-    if (border.line > options_.line_share * (border.sums.length + border.line)) return never;
-    if (voting_[a] <= 0.0F || voting_[b] <= 0.0F) return 0.0F;
-    Samples both = samples_[a];
-    both.insert(both.end(), samples_[b].begin(), samples_[b].end());
-    const double misfit = fit_of(both).misfit;
-    const double na = static_cast<double>(voting_[a]) / options_.grain,
-                 nb = static_cast<double>(voting_[b]) / options_.grain;
-    const auto rise = static_cast<float>(price_of(misfit, na + nb) - price_of(fits_[a].misfit, na) -
-                                         price_of(fits_[b].misfit, nb));
-    const auto smaller =
-        static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
-    const float by_surface =
-        misfit < static_cast<double>(options_.free) && options_.surfaces
-            ? std::max(0.0F, rise) / (options_.rise + options_.rise_each * smaller +
-                                      options_.rise_border * border.sums.length)
-            : never;
-    const float by_kink = std::max(
-        cost_by_kink(border, a, b),
-        std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
-    return std::min(by_surface, by_kink);
-  }
-  /// By the kink between them.
-  float cost_by_kink(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
-    const float kink = border.sums.kink();
-    float faces = border.sums.length * 1.5F * options_.border.far / mean_face_area / 1.3F;
-    faces = std::min(std::max(faces, 4.0F), 2.0F * std::min(voting_[a], voting_[b]) + 4.0F);
-    float cost = std::sqrt(std::max(0.0F, kink * kink - 6.0F * face_noise_ * face_noise_ / faces));
-    const float smaller = std::min(area_[a], area_[b]);
-    if (smaller < options_.small) cost *= smaller / options_.small;
-    return cost / options_.kink;
-  }
-
-  void join_up_to(float height) {
-    std::vector<std::uint32_t> labels(base_.size());
-    parallel_for(labels.size(), [&](std::size_t f) { labels[f] = root(base_[f]); });
-    const BorderPlaces places = measure_borders(mesh_, table_, labels, banded_, options_.border);
-    RegionJoining<AreaBorder> joining(area_);
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    const auto border_of = [&](std::uint32_t a, std::uint32_t b) -> AreaBorder& {
-      AreaBorder& border = joining.border(a, b);
-      if (!border.parent) {
-        border.areas = {std::min(a, b), std::max(a, b)};
-        border.parent = &parent_;
-        pairs.push_back(border.areas);
+  for (std::size_t i = 0; i < front.size(); ++i)
+    for (const FaceId g : table.neighbours[front[i]])
+      if (g != no_id && tree.of_face[g] == no_id) {
+        tree.of_face[g] = tree.of_face[front[i]];
+        front.push_back(g);
       }
-      return border;
-    };
-    for (std::size_t k = 0; k < places.edges.size(); ++k) {
-      const auto [f, g] = mesh_.edge_faces(places.edges[k]);
-      border_of(labels[f], labels[g]).sums.add(places.places[k]);
-    }
-    if (!lines_.edges.empty())
-      for (EdgeId e = 0; e < mesh_.edge_count(); ++e) {
-        if (!lines_.is_sharp(e)) continue;
-        const auto [f, g] = mesh_.edge_faces(e);
-        if (f == no_id || g == no_id || labels[f] == labels[g]) continue;
-        border_of(labels[f], labels[g]).line +=
-            static_cast<float>(mesh_.edge_length(e) / table_.unit);
-      }
-    std::vector<AreaBorder*> borders;
-    for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
-    parallel_for(
-        pairs.size(), [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); },
-        16);
-    joining.run(
-        height,
-        [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
-          return known_cost(border, a, b);
-        },
-        [&](const auto& join, const AreaBorder&) {
-          this->join(join.into, join.gone, join.height);
-        });
-  }
+  for (FaceId f = 0; f < table.size(); ++f)
+    if (tree.of_face[f] == no_id) tree.of_face[f] = area[f];
+  const AreaGround within{mesh, table, edge_length, surfaces, tree.face_noise, tree.banded};
+  settle_borders(within, options, tree.of_face);
+  straighten_borders(within, options, tree.of_face);
+  keep_largest_pieces(table, edge_length, tree.of_face);
+  table.neighbours = neighbours;
+}
 
-  /// A cost stays as long as neither of the two areas has become another.
-  float known_cost(AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
-    std::array<std::uint32_t, 2> states{state_[a], state_[b]};
-    if (states[0] > states[1]) std::swap(states[0], states[1]);
-    if (border.known < 0.0F || border.known_for != states) {
-      border.known = cost_of(border, a, b);
-      border.known_for = states;
-    }
-    return border.known;
+/// What each piece holds and lies beside.
+void measure_pieces(const Mesh& mesh, const FaceTable& table, const std::vector<float>& edge_length,
+                    AreaTree& tree) {
+  struct Side {
+    std::uint32_t a, b;
+    EdgeId edge;
+  };
+  std::vector<Side> sides;
+  for (FaceId f = 0; f < table.size(); ++f) {
+    AreaTree::Piece& own = tree.pieces[tree.of_face[f]];
+    own.faces.push_back(f);
+    own.area += face_area(mesh, f);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const FaceId g = table.neighbours[f][k]; g != no_id && tree.of_face[f] != tree.of_face[g])
+        sides.push_back({tree.of_face[f], tree.of_face[g], table.sides[f][k]});
   }
-
-  void join(std::uint32_t into, std::uint32_t gone, float height) {
-    height_ = std::max(height_, height);
-    parent_[gone] = into;
-    // What the larger of the two is stays as good as it was while little comes to it.
-    const std::uint32_t larger = voting_[into] >= voting_[gone] ? into : gone;
-    state_[into] = state_[larger];
-    state_area_[into] = state_area_[larger];
-    area_[into] += area_[gone];
-    voting_[into] += voting_[gone];
-    if (voting_[into] > options_.same * state_area_[into]) {
-      state_[into] = next_state_++;
-      state_area_[into] = voting_[into];
-    }
-    Samples& mine = samples_[into];
-    mine.insert(mine.end(), samples_[gone].begin(), samples_[gone].end());
-    samples_[gone] = {};
-    mine = thinned(std::move(mine), options_.samples);
-    fits_[into] = fit_of(mine);
-    joins_.push_back({into, gone, height_, fits_[into]});
+  tbb::parallel_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::tie(x.a, x.b, x.edge) < std::tie(y.a, y.b, y.edge);
+  });
+  for (const Side& side : sides) {
+    auto& beside = tree.pieces[side.a].beside;
+    if (beside.empty() || beside.back().first != side.b) beside.emplace_back(side.b, 0.0F);
+    beside.back().second += edge_length[side.edge];
   }
-
-  const Mesh& mesh_;
-  const FaceTable& table_;
-  const SharpLines& lines_;
-  const std::vector<std::uint8_t>& banded_;
-  const AreaTreeOptions& options_;
-  const SurfaceNoise noise_;
-  const float face_noise_;
-  const std::vector<std::uint32_t>& base_;
-  std::vector<std::uint32_t> parent_;
-  std::vector<float> area_, voting_;  // in faces
-  std::vector<Samples> samples_;
-  std::vector<FittedSurface> fits_;
-  std::vector<AreaTree::Join> joins_;
-  float height_ = 0.0F;
-  std::vector<std::uint32_t> state_;  // of each area, a number that changes when it does
-  std::vector<float> state_area_;     // its voting faces when it did
-  std::uint32_t next_state_;
-};
+}
 
 }  // namespace
 
 Areas AreaTree::cut(float height, std::uint32_t least) const {
-  std::vector<std::uint32_t> parent(surfaces.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  std::vector<const FittedSurface*> surface(surfaces.size());
-  for (std::size_t a = 0; a < surfaces.size(); ++a) surface[a] = &surfaces[a];
-  for (const Join& join : joins) {
-    if (join.height > height) break;
-    parent[join.gone] = join.into;
-    surface[join.into] = &join.surface;
+  const Roots roots(surfaces_of(*this), joins, height);
+  const auto count = static_cast<std::uint32_t>(pieces.size());
+  // Connected pieces of one root; a root that is not connected is several areas.
+  struct Group {
+    std::vector<std::uint32_t> pieces;
+    std::size_t faces = 0;
+    std::uint32_t root = 0;
+  };
+  std::vector<std::uint32_t> group_of(count, no_id);
+  std::vector<Group> groups;
+  for (std::uint32_t first = 0; first < count; ++first) {
+    if (group_of[first] != no_id || pieces[first].faces.empty()) continue;
+    const auto number = static_cast<std::uint32_t>(groups.size());
+    Group group{{first}, 0, roots.of_piece[first]};
+    group_of[first] = number;
+    for (std::size_t i = 0; i < group.pieces.size(); ++i) {
+      const Piece& piece = pieces[group.pieces[i]];
+      group.faces += piece.faces.size();
+      for (const auto& [other, length] : piece.beside)
+        if (group_of[other] == no_id && roots.of_piece[other] == group.root) {
+          group_of[other] = number;
+          group.pieces.push_back(other);
+        }
+    }
+    groups.push_back(std::move(group));
   }
-  for (std::uint32_t a = 0; a < parent.size(); ++a) {
-    std::uint32_t root = a;
-    while (parent[root] != root) root = parent[root] = parent[parent[root]];
-    parent[a] = root;
+  // Specks, the smallest first, so that what they go to may be a speck no longer.
+  std::vector<std::uint32_t> specks;
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    if (groups[g].faces < least) specks.push_back(g);
+  std::ranges::stable_sort(specks, {}, [&](std::uint32_t g) { return groups[g].faces; });
+  for (const std::uint32_t g : specks) {
+    Group& speck = groups[g];
+    if (speck.faces >= least) continue;
+    std::map<std::uint32_t, float> beside;
+    for (const std::uint32_t piece : speck.pieces)
+      for (const auto& [other, length] : pieces[piece].beside)
+        if (group_of[other] != g) beside[group_of[other]] += length;
+    if (beside.empty()) continue;
+    const std::uint32_t to =
+        std::ranges::max_element(beside, {}, [](const auto& entry) { return entry.second; })->first;
+    for (const std::uint32_t piece : speck.pieces) group_of[piece] = to;
+    groups[to].faces += speck.faces;
+    if (groups[to].faces < least + speck.faces)
+      groups[to].pieces.insert(groups[to].pieces.end(), speck.pieces.begin(), speck.pieces.end());
+    speck.pieces.clear();
   }
   Areas areas;
-  std::vector<std::uint32_t> number(parent.size(), no_id);
-  areas.of_face.resize(smallest.size());
-  for (std::size_t f = 0; f < smallest.size(); ++f) {
-    const std::uint32_t root = parent[smallest[f]];
-    if (number[root] == no_id) {
-      number[root] = static_cast<std::uint32_t>(areas.surfaces.size());
-      areas.surfaces.push_back(*surface[root]);
-      if (areas.surfaces.back().misfit >= static_cast<double>(options.free))
-        areas.surfaces.back().surface.type = SurfaceType::free;
+  areas.of_piece.assign(count, no_id);
+  std::vector<std::uint32_t> order, number(groups.size(), no_id);
+  for (std::uint32_t piece = 0; piece < count; ++piece)
+    if (!pieces[piece].faces.empty()) order.push_back(piece);
+  std::ranges::sort(order, {}, [&](std::uint32_t piece) { return pieces[piece].faces.front(); });
+  for (const std::uint32_t piece : order) {
+    const std::uint32_t group = group_of[piece];
+    if (number[group] == no_id) {
+      number[group] = static_cast<std::uint32_t>(areas.surfaces.size());
+      areas.surfaces.push_back(roots.surfaces[groups[group].root]);
     }
-    areas.of_face[f] = number[root];
+    areas.of_piece[piece] = number[group];
   }
-  settle_borders(table, edge_length, areas.surfaces, face_noise, banded, options.settling,
-                 areas.of_face);
-  std::vector<std::uint32_t> before = areas.of_face;
-  join_specks(table, edge_length, least, areas.of_face);
-  // Each is of the surface of what it was part of; a speck does not decide over that.
-  std::vector<FittedSurface> kept;
-  for (std::size_t f = 0; f < before.size(); ++f)
-    if (areas.of_face[f] == kept.size()) kept.push_back(areas.surfaces[before[f]]);
-  areas.surfaces = std::move(kept);
   return areas;
+}
+
+std::vector<std::uint32_t> AreaTree::by_face(const Areas& areas) const {
+  std::vector<std::uint32_t> result(of_face.size());
+  parallel_for(result.size(), [&](std::size_t f) { result[f] = areas.of_piece[of_face[f]]; });
+  return result;
 }
 
 Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
                                 const AreaTreeOptions& options, const Context& context) {
-  AreaTree tree{table_between_lines(mesh, lines), {}, {}, {}, {}, {}, {}, {}, options};
-  const FaceTable& table = tree.table;
-  tree.banded = faces_beside_lines(mesh, lines, table, options);
-  std::vector<float>& edge_length = tree.edge_length;
-  edge_length.resize(mesh.edge_count());
+  AreaTree tree;
+  FaceTable table = table_between_lines(mesh, lines);
+  tree.banded = faces_beside_lines(mesh, lines, table, options.smallest);
+  std::vector<float> edge_length(mesh.edge_count());
   parallel_for(mesh.edge_count(), [&](std::size_t e) {
     edge_length[e] = static_cast<float>(mesh.edge_length(static_cast<EdgeId>(e)) / table.unit);
   });
   Result<CurvatureKinks> kinks =
       measure_curvature_kinks(mesh, table, tree.banded, options.kinks, context.part(0.0, 0.4));
   if (!kinks) return tl::unexpected<Error>(kinks.error());
-  FaceRegions areas = smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options);
+  FaceRegions areas =
+      smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options.smallest);
   if (context.cancelled()) return cancelled();
   Grains grains = make_grains(table, areas, tree.banded, options.grain);
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
-                                 static_cast<double>(options.angle * radians)};
+                                 static_cast<double>(options.angle) * radians};
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
   const SurfaceNoise near_noise = tree.noise;
   const FaceRegions old = areas;
@@ -597,88 +315,157 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   for (FaceId f = 0; f < table.size(); ++f)
     if (grains.of_face[f] != no_id) grains.area[grains.of_face[f]] = areas.of_face[f];
   const FaceRegions pieces = pieces_of(table, areas, old);
-  AreaJoining joining(mesh, table, lines, areas, tree.banded, options, tree.noise, kinks->noise,
-                      samples_by_area(grains, areas.count));
-  const std::vector<FittedSurface> surfaces = joining.surfaces();
-  tree.joins = join_pieces(table, pieces, areas, *kinks, edge_length, surfaces, options.inner);
+  JoinedAreas joined =
+      join_areas({mesh, table, lines, areas, tree.banded, samples_by_area(grains, areas.count),
+                  options.grain, tree.noise, kinks->noise},
+                 options.joining, context.part(0.5, 0.95));
+  if (context.cancelled()) return cancelled();
+  tree.joins =
+      join_pieces(table, pieces, areas, *kinks, edge_length, joined.surfaces, options.inner);
   // From here on an area goes by the piece that its pieces were joined to.
   std::vector<std::uint32_t> gone_to(pieces.count), piece_of(areas.count, no_id);
   std::iota(gone_to.begin(), gone_to.end(), 0U);
-  for (const AreaTree::Join& join : tree.joins) gone_to[join.gone] = join.into;
-  tree.surfaces.resize(pieces.count);
+  for (const AreaJoin& join : tree.joins) gone_to[join.gone] = join.into;
+  tree.pieces.resize(pieces.count);
   for (FaceId f = 0; f < table.size(); ++f) {
     const std::uint32_t piece = pieces.of_face[f];
-    tree.surfaces[piece] = surfaces[areas.of_face[f]];
+    tree.pieces[piece].surface = joined.surfaces[areas.of_face[f]];
     if (gone_to[piece] == piece) piece_of[areas.of_face[f]] = piece;
   }
-  for (AreaTree::Join join : joining.run(context.part(0.5, 1.0))) {
+  for (AreaJoin join : joined.joins) {
     join.into = piece_of[join.into];
     join.gone = piece_of[join.gone];
     join.height = std::max(join.height, options.inner);
     tree.joins.push_back(join);
   }
+  const auto free_where_missed = [&](FittedSurface& fit) {
+    if (fit.misfit >= static_cast<double>(options.joining.free))
+      fit.surface.type = SurfaceType::free;
+  };
+  for (AreaTree::Piece& piece : tree.pieces) free_where_missed(piece.surface);
+  for (AreaJoin& join : tree.joins) free_where_missed(join.surface);
   tree.face_noise = {tree.noise.distance * options.face_noise,
-                     std::max(static_cast<double>(kinks->noise * radians), tree.noise.angle)};
+                     std::max(static_cast<double>(kinks->noise) * radians, tree.noise.angle)};
+  tree.of_face = pieces.of_face;
+  settle(mesh, tree, table, edge_length, options.borders);
+  measure_pieces(mesh, table, edge_length, tree);
+  tree.neighbours = std::move(table.neighbours);
   if (context.cancelled()) return cancelled();
-  tree.smallest = pieces.of_face;
-  tree.table.points = {};  // windows are over
   return tree;
 }
 
 std::size_t AreaTree::bytes() const {
-  return sizeof *this + table.faces.size() * sizeof(FaceTable::Face) +
-         table.neighbours.size() * sizeof(table.neighbours[0]) +
-         table.sides.size() * sizeof(table.sides[0]) +
-         table.points.size() * sizeof(table.points[0]) + edge_length.size() * sizeof(float) +
-         banded.size() + smallest.size() * sizeof(std::uint32_t) +
-         surfaces.size() * sizeof(FittedSurface) + joins.size() * sizeof(Join);
+  std::size_t beside = 0;
+  for (const Piece& own : pieces) beside += own.beside.size();
+  return sizeof *this + neighbours.size() * sizeof(neighbours[0]) + banded.size() +
+         of_face.size() * (sizeof(std::uint32_t) + sizeof(FaceId)) + pieces.size() * sizeof(Piece) +
+         beside * sizeof(std::pair<std::uint32_t, float>) + joins.size() * sizeof(AreaJoin);
 }
+
+namespace {
+
+/// Values of the criterion at the regular vertices of faces, one for each face it lies in.
+struct ValueRange {
+  double sum = 0.0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::size_t count = 0;
+
+  void add(const ValueRange& other) {
+    sum += other.sum;
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+    count += other.count;
+  }
+};
+
+/// `banded`: faces whose vertices are not regular.
+ValueRange values_in(const Mesh& mesh, const std::vector<FaceId>& faces,
+                     const std::vector<std::uint8_t>& banded, const std::vector<double>& values) {
+  ValueRange range;
+  for (const FaceId f : faces) {
+    if (banded[f]) continue;
+    for (const VertexId v : mesh.triangle(f))
+      if (!mesh.is_border(v) && !std::isnan(values[v]))
+        range.add({values[v], values[v], values[v], 1});
+  }
+  return range;
+}
+
+/// One of found partitions, with the values that it holds.
+void take_values(const ValueRange& range, Partition& partition) {
+  if (range.count == 0) return;
+  partition.mean_value = range.sum / static_cast<double>(range.count);
+  partition.interval = {range.least, range.most};
+}
+
+/// The areas as they are.
+FoundPartitions whole_areas(const Mesh& mesh, const AreaTree& tree, const Areas& areas,
+                            const std::vector<double>& values) {
+  FoundPartitions found;
+  found.labels = tree.by_face(areas);
+  parallel_for(found.labels.size(), [&](std::size_t f) { ++found.labels[f]; });
+  found.partitions.resize(areas.surfaces.size());
+  std::vector<ValueRange> of_piece(tree.pieces.size()), of_area(areas.surfaces.size());
+  parallel_for(
+      of_piece.size(),
+      [&](std::size_t k) {
+        of_piece[k] = values_in(mesh, tree.pieces[k].faces, tree.banded, values);
+      },
+      1);
+  std::vector<FaceId> first(areas.surfaces.size(), no_id);
+  for (std::size_t k = 0; k < tree.pieces.size(); ++k) {
+    const AreaTree::Piece& piece = tree.pieces[k];
+    if (piece.faces.empty()) continue;
+    const std::uint32_t area = areas.of_piece[k];
+    of_area[area].add(of_piece[k]);
+    found.partitions[area].faces += static_cast<std::uint32_t>(piece.faces.size());
+    found.partitions[area].area += piece.area;
+    first[area] = std::min(first[area], piece.faces.front());
+  }
+  for (std::size_t a = 0; a < found.partitions.size(); ++a) {
+    found.partitions[a].anchor = mesh.triangle(first[a]);
+    take_values(of_area[a], found.partitions[a]);
+  }
+  return found;
+}
+
+/// What others took may part an area: each piece of what is left of it is a partition.
+FoundPartitions parted_areas(const Mesh& mesh, const AreaTree& tree, const Areas& areas,
+                             const std::vector<double>& values, const std::vector<bool>& taken) {
+  const std::vector<std::uint32_t> area = tree.by_face(areas);
+  FoundPartitions found;
+  found.labels.assign(mesh.face_count(), 0);
+  std::vector<FaceId> front;
+  for (FaceId first = 0; first < mesh.face_count(); ++first) {
+    if (found.labels[first] != 0 || taken[first]) continue;
+    Partition partition;
+    partition.anchor = mesh.triangle(first);
+    const auto label = static_cast<std::uint32_t>(found.partitions.size() + 1);
+    found.labels[first] = label;
+    front.assign(1, first);
+    for (std::size_t i = 0; i < front.size(); ++i)
+      for (const FaceId g : tree.neighbours[front[i]])
+        if (g != no_id && found.labels[g] == 0 && area[g] == area[first] && !taken[g]) {
+          found.labels[g] = label;
+          front.push_back(g);
+        }
+    partition.faces = static_cast<std::uint32_t>(front.size());
+    for (const FaceId f : front) partition.area += face_area(mesh, f);
+    take_values(values_in(mesh, front, tree.banded, values), partition);
+    found.partitions.push_back(partition);
+  }
+  return found;
+}
+
+}  // namespace
 
 FoundPartitions partitions_of(const Mesh& mesh, const AreaTree& tree, float height,
                               std::uint32_t least, Criterion criterion,
                               const std::vector<double>& values, const std::vector<bool>& taken) {
-  Areas areas = tree.cut(height, least);
-  FoundPartitions found;
-  found.labels.assign(mesh.face_count(), 0);
-  // What others took may part an area: each piece of it is one.
-  struct Range {
-    double sum = 0.0, least = 0.0, most = 0.0;
-    std::size_t count = 0;
-  };
-  std::vector<FaceId> front;
-  for (FaceId first = 0; first < mesh.face_count(); ++first) {
-    if (found.labels[first] != 0 || (!taken.empty() && taken[first])) continue;
-    Partition partition;
-    partition.anchor = mesh.triangle(first);
-    partition.criterion = criterion;
-    found.partitions.push_back(partition);
-    const auto label = static_cast<std::uint32_t>(found.partitions.size());
-    found.labels[first] = label;
-    front.assign(1, first);
-    for (std::size_t i = 0; i < front.size(); ++i)
-      for (const FaceId g : tree.table.neighbours[front[i]])
-        if (g != no_id && found.labels[g] == 0 && areas.of_face[g] == areas.of_face[first] &&
-            (taken.empty() || !taken[g])) {
-          found.labels[g] = label;
-          front.push_back(g);
-        }
-    Partition& made = found.partitions.back();
-    made.faces = static_cast<std::uint32_t>(front.size());
-    Range range;
-    for (const FaceId f : front) {
-      made.area += face_area(mesh, f);
-      if (tree.banded[f]) continue;
-      for (const VertexId v : mesh.triangle(f)) {
-        if (mesh.is_border(v) || std::isnan(values[v])) continue;
-        range.least = range.count == 0 ? values[v] : std::min(range.least, values[v]);
-        range.most = range.count == 0 ? values[v] : std::max(range.most, values[v]);
-        range.sum += values[v];
-        ++range.count;
-      }
-    }
-    if (range.count > 0) made.mean_value = range.sum / static_cast<double>(range.count);
-    made.interval = {range.least, range.most};
-  }
+  const Areas areas = tree.cut(height, least);
+  FoundPartitions found = taken.empty() ? whole_areas(mesh, tree, areas, values)
+                                        : parted_areas(mesh, tree, areas, values, taken);
+  for (Partition& partition : found.partitions) partition.criterion = criterion;
   return found;
 }
 

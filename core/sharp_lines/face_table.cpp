@@ -1,5 +1,7 @@
 #include "core/sharp_lines/face_table.h"
 
+#include <limits>
+
 #include "core/base/parallel.h"
 
 namespace arris {
@@ -30,6 +32,29 @@ FaceTable::FaceTable(const Mesh& mesh)
       sides[i][k] = h >> 1;
     }
   });
+}
+
+std::vector<float> distances_from(const Mesh& mesh, const FaceTable& table,
+                                  const std::vector<EdgeId>& edges, float reach) {
+  std::vector<float> distance(table.size(), std::numeric_limits<float>::infinity());
+  std::vector<EdgeId> nearest(table.size(), no_id);
+  std::vector<FaceId> front;
+  const auto visit = [&](FaceId f, EdgeId e, bool always) {
+    const EdgeVertices& ends = mesh.edge(e);
+    const float d =
+        (table.faces[f].centre - (table.points[ends[0]] + table.points[ends[1]]) / 2.0F).norm();
+    if (d >= distance[f] || (!always && d >= reach)) return;
+    distance[f] = d;
+    nearest[f] = e;
+    front.push_back(f);
+  };
+  for (const EdgeId e : edges)
+    for (const FaceId f : mesh.edge_faces(e))
+      if (f != no_id) visit(f, e, true);
+  for (std::size_t i = 0; i < front.size(); ++i)
+    for (const FaceId g : table.neighbours[front[i]])
+      if (g != no_id) visit(g, nearest[front[i]], false);
+  return distance;
 }
 
 }  // namespace arris

@@ -29,6 +29,11 @@ struct FaceTable {
   std::size_t size() const { return faces.size(); }
 };
 
+/// How far the centre of each face lies from the middle of the nearest of `edges`, mean edges, as
+/// reached over sides; infinite beyond `reach`. The faces beside an edge count whatever theirs is.
+std::vector<float> distances_from(const Mesh& mesh, const FaceTable& table,
+                                  const std::vector<EdgeId>& edges, float reach);
+
 /// Faces about a place, grown over shared sides, so that another sheet that is near in space only
 /// (the other face of a thin wall) does not come in. One for each thread.
 class FaceWindow {

@@ -130,7 +130,8 @@ Result<Found> surface_areas(const ScanPtr& scan, const AreaIdea& idea) {
   idea.change(options);
   const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, options, {});
   if (!tree) return tl::unexpected<Error>(tree.error());
-  found.labels = tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)).of_face;
+  found.labels = tree->by_face(
+      tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)));
   for (std::uint32_t& label : found.labels) ++label;
   return found;
 }
@@ -140,12 +141,13 @@ constexpr AreaIdea area_ideas[] = {
     {"no grains", [](AreaTreeOptions& o) { o.grain = 1; }},
     {"no growing", [](AreaTreeOptions& o) { o.growing.good = 0.0; }},
     {"noise of windows", [](AreaTreeOptions& o) { o.growths = 1; }},
-    {"no joins by surfaces", [](AreaTreeOptions& o) { o.surfaces = false; }},
-    {"no joins over kinks", [](AreaTreeOptions& o) { o.kink = 1e-3F; }},
-    {"no limit on free areas", [](AreaTreeOptions& o) { o.free_rise = 1e9F; }},
-    {"borders count nothing", [](AreaTreeOptions& o) { o.rise_border = o.free_border = 0.0F; }},
-    {"all beside lines vote", [](AreaTreeOptions& o) { o.band = 0.0F; }},
-    {"borders not settled", [](AreaTreeOptions& o) { o.settling.rounds = 0; }},
+    {"no joins by surfaces", [](AreaTreeOptions& o) { o.joining.surfaces = false; }},
+    {"no joins over kinks", [](AreaTreeOptions& o) { o.joining.kink = 1e-3F; }},
+    {"no limit on free areas", [](AreaTreeOptions& o) { o.joining.free_rise = 1e9F; }},
+    {"borders count nothing", [](AreaTreeOptions& o) { o.joining.rise_border = o.joining.free_border = 0.0F; }},
+    {"all beside lines vote", [](AreaTreeOptions& o) { o.smallest.band = 0.0F; }},
+    {"borders not settled", [](AreaTreeOptions& o) { o.borders.rounds = 0; }},
+    {"borders not straight", [](AreaTreeOptions& o) { o.borders.straightenings = 0; }},
 };
 
 /// All edges of an exterior angle above the usual one, linked into lines.

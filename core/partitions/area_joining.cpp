@@ -1,0 +1,251 @@
+#include "core/partitions/area_joining.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/partitions/surface_growing.h"
+#include "core/sharp_lines/region_joining.h"
+
+namespace arris {
+
+namespace {
+
+using Samples = std::vector<SurfaceSample>;
+constexpr float never = 1e9F;
+
+/// A border between two areas while areas are joined.
+struct AreaBorder {
+  std::array<std::uint32_t, 2> areas{no_id, no_id};  // on its first and second side, as begun with
+  BorderSums sums;
+  float line = 0.0F;                         // length of line between the two
+  float known = -1.0F;                       // the cost as last worked out; negative: not known
+  std::array<std::uint32_t, 2> known_for{};  // the states of the areas then, in any order
+  const std::vector<std::uint32_t>* parent = nullptr;
+
+  std::uint32_t root(std::size_t side) const {
+    std::uint32_t a = areas[side];
+    while ((*parent)[a] != a) a = (*parent)[a];
+    return a;
+  }
+  void absorb(const AreaBorder& other) {
+    const bool turned = root(0) == other.root(1) || root(1) == other.root(0);
+    sums.add(turned ? other.sums.turned() : other.sums);
+    line += other.line;
+    known = -1.0F;
+  }
+};
+
+/// Joins areas, round after round.
+class AreaJoining {
+ public:
+  AreaJoining(AreasToJoin given, const AreaJoiningOptions& options)
+      : mesh_(given.mesh),
+        table_(given.table),
+        lines_(given.lines),
+        banded_(given.banded),
+        options_(options),
+        noise_(given.noise),
+        face_noise_(given.face_noise),
+        grain_(given.grain),
+        base_(given.areas.of_face),
+        parent_(given.areas.count),
+        area_(given.areas.count, 0.0F),
+        voting_(given.areas.count, 0.0F),
+        samples_(std::move(given.samples)),
+        fits_(given.areas.count),
+        state_(given.areas.count),
+        next_state_(given.areas.count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    std::iota(state_.begin(), state_.end(), 0U);
+    for (FaceId f = 0; f < table_.size(); ++f) {
+      area_[base_[f]] += table_.faces[f].area / mean_face_area;
+      if (!banded_[f]) voting_[base_[f]] += table_.faces[f].area / mean_face_area;
+    }
+    state_area_ = voting_;
+    parallel_for(
+        fits_.size(),
+        [&](std::size_t a) {
+          samples_[a] = thinned(std::move(samples_[a]), options.samples);
+          fits_[a] = fit_of(samples_[a]);
+        },
+        16);
+  }
+
+  const std::vector<FittedSurface>& surfaces() const { return fits_; }
+
+  std::vector<AreaJoin> run(const Context& context) {
+    std::vector<float> heights;
+    for (int k = 1; k <= options_.rounds; ++k)
+      heights.push_back(static_cast<float>(k) / static_cast<float>(options_.rounds));
+    for (const float height : {1.5F, 2.5F, 5.0F, 20.0F}) heights.push_back(height);
+    for (std::size_t k = 0; k < heights.size() && !context.cancelled(); ++k) {
+      context.report(static_cast<double>(k) / static_cast<double>(heights.size()), "areas");
+      join_up_to(heights[k]);
+    }
+    return std::move(joins_);
+  }
+
+ private:
+  std::uint32_t root(std::uint32_t a) const {
+    while (parent_[a] != a) a = parent_[a];
+    return a;
+  }
+  FittedSurface fit_of(const Samples& samples) const {
+    if (samples.empty()) return {};
+    FittedSurface fit = fit_surface(samples, noise_);
+    // Any smooth surface is a torus for a while, and one that bends little a sphere or cylinder:
+    // they say something where the torus is a blend and the others bend noticeably.
+    const Surface& surface = fit.surface;
+    const double torus = std::min(surface.tube, std::abs(surface.radius - surface.tube));
+    if ((surface.type == SurfaceType::torus && torus > static_cast<double>(options_.blend)) ||
+        ((surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder) &&
+         surface.radius > static_cast<double>(options_.wide)))
+      fit.misfit = std::max(fit.misfit, static_cast<double>(options_.free));
+    return fit;
+  }
+  /// What an area costs, in misfits of a sample: by its surface, or as a free one.
+  double price_of(double misfit, double samples) const {
+    return samples * std::min(misfit, static_cast<double>(options_.free));
+  }
+  float cost_of(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    if (border.line > options_.line_share * (border.sums.length + border.line)) return never;
+    if (voting_[a] <= 0.0F || voting_[b] <= 0.0F) return 0.0F;
+    Samples both = samples_[a];
+    both.insert(both.end(), samples_[b].begin(), samples_[b].end());
+    const double misfit = fit_of(both).misfit;
+    const double na = static_cast<double>(voting_[a]) / grain_,
+                 nb = static_cast<double>(voting_[b]) / grain_;
+    const auto rise = static_cast<float>(price_of(misfit, na + nb) - price_of(fits_[a].misfit, na) -
+                                         price_of(fits_[b].misfit, nb));
+    const auto smaller =
+        static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
+    const float by_surface =
+        misfit < static_cast<double>(options_.free) && options_.surfaces
+            ? std::max(0.0F, rise) / (options_.rise + options_.rise_each * smaller +
+                                      options_.rise_border * border.sums.length)
+            : never;
+    const float by_kink = std::max(
+        cost_by_kink(border, a, b),
+        std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
+    return std::min(by_surface, by_kink);
+  }
+  /// By the kink between them.
+  float cost_by_kink(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    const float kink = border.sums.kink();
+    float faces = border.sums.length * 1.5F * options_.border.far / mean_face_area / 1.3F;
+    faces = std::min(std::max(faces, 4.0F), 2.0F * std::min(voting_[a], voting_[b]) + 4.0F);
+    float cost = std::sqrt(std::max(0.0F, kink * kink - 6.0F * face_noise_ * face_noise_ / faces));
+    const float smaller = std::min(area_[a], area_[b]);
+    if (smaller < options_.small) cost *= smaller / options_.small;
+    return cost / options_.kink;
+  }
+
+  void join_up_to(float height) {
+    std::vector<std::uint32_t> labels(base_.size());
+    parallel_for(labels.size(), [&](std::size_t f) { labels[f] = root(base_[f]); });
+    const BorderPlaces places = measure_borders(mesh_, table_, labels, banded_, options_.border);
+    RegionJoining<AreaBorder> joining(area_);
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    const auto border_of = [&](std::uint32_t a, std::uint32_t b) -> AreaBorder& {
+      AreaBorder& border = joining.border(a, b);
+      if (!border.parent) {
+        border.areas = {std::min(a, b), std::max(a, b)};
+        border.parent = &parent_;
+        pairs.push_back(border.areas);
+      }
+      return border;
+    };
+    for (std::size_t k = 0; k < places.edges.size(); ++k) {
+      const auto [f, g] = mesh_.edge_faces(places.edges[k]);
+      border_of(labels[f], labels[g]).sums.add(places.places[k]);
+    }
+    if (!lines_.edges.empty())
+      for (EdgeId e = 0; e < mesh_.edge_count(); ++e) {
+        if (!lines_.is_sharp(e)) continue;
+        const auto [f, g] = mesh_.edge_faces(e);
+        if (f == no_id || g == no_id || labels[f] == labels[g]) continue;
+        border_of(labels[f], labels[g]).line +=
+            static_cast<float>(mesh_.edge_length(e) / table_.unit);
+      }
+    std::vector<AreaBorder*> borders;
+    for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
+    parallel_for(
+        pairs.size(), [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); },
+        16);
+    joining.run(
+        height,
+        [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
+          return known_cost(border, a, b);
+        },
+        [&](const auto& join, const AreaBorder&) {
+          this->join(join.into, join.gone, join.height);
+        });
+  }
+
+  /// A cost stays as long as neither of the two areas has become another.
+  float known_cost(AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    std::array<std::uint32_t, 2> states{state_[a], state_[b]};
+    if (states[0] > states[1]) std::swap(states[0], states[1]);
+    if (border.known < 0.0F || border.known_for != states) {
+      border.known = cost_of(border, a, b);
+      border.known_for = states;
+    }
+    return border.known;
+  }
+
+  void join(std::uint32_t into, std::uint32_t gone, float height) {
+    height_ = std::max(height_, height);
+    parent_[gone] = into;
+    // What the larger of the two is stays as good as it was while little comes to it.
+    const std::uint32_t larger = voting_[into] >= voting_[gone] ? into : gone;
+    state_[into] = state_[larger];
+    state_area_[into] = state_area_[larger];
+    area_[into] += area_[gone];
+    voting_[into] += voting_[gone];
+    if (voting_[into] > options_.same * state_area_[into]) {
+      state_[into] = next_state_++;
+      state_area_[into] = voting_[into];
+    }
+    Samples& mine = samples_[into];
+    mine.insert(mine.end(), samples_[gone].begin(), samples_[gone].end());
+    samples_[gone] = {};
+    mine = thinned(std::move(mine), options_.samples);
+    fits_[into] = fit_of(mine);
+    joins_.push_back({into, gone, height_, fits_[into]});
+  }
+
+  const Mesh& mesh_;
+  const FaceTable& table_;
+  const SharpLines& lines_;
+  const std::vector<std::uint8_t>& banded_;
+  const AreaJoiningOptions& options_;
+  const SurfaceNoise noise_;
+  const float face_noise_;
+  const int grain_;
+  const std::vector<std::uint32_t>& base_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<float> area_, voting_;  // in faces
+  std::vector<Samples> samples_;
+  std::vector<FittedSurface> fits_;
+  std::vector<AreaJoin> joins_;
+  float height_ = 0.0F;
+  std::vector<std::uint32_t> state_;  // of each area, a number that changes when it does
+  std::vector<float> state_area_;     // its voting faces when it did
+  std::uint32_t next_state_;
+};
+}  // namespace
+
+JoinedAreas join_areas(AreasToJoin areas, const AreaJoiningOptions& options,
+                       const Context& context) {
+  AreaJoining joining(std::move(areas), options);
+  JoinedAreas result;
+  result.surfaces = joining.surfaces();
+  result.joins = joining.run(context);
+  return result;
+}
+
+}  // namespace arris
