@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -172,8 +173,10 @@ int main(int argc, char** argv) {
   if (!summary_only) {
     case_table(rows).print(markdown);
     std::printf("\n");
-    proposal_table(rows).print(markdown);
-    std::printf("\n");
+    if (const std::optional<Table> proposals = proposal_table(rows)) {
+      proposals->print(markdown);
+      std::printf("\n");
+    }
   }
   group_table(rows).print(markdown);
   std::printf("\n%s", legend().c_str());

@@ -18,7 +18,7 @@ namespace {
 using namespace arris::testing;
 
 constexpr double pi = std::numbers::pi;
-constexpr int side = 20;  // of the lattice, in its edges of 1 mm
+constexpr int side = 40;  // of the lattice, in its edges of 1 mm
 
 Document flat() { return document_of(noisy_plane(side, 1.0, 0.0, 0.0, 1)); }
 
@@ -79,7 +79,7 @@ TEST(Turning, AStraightBorderAcrossTheLatticeZigzagsUntilSmoothed) {
 
 TEST(Turning, ACircleTurnsOnceRound) {
   constexpr int steps = 60;
-  constexpr double radius = 5.0;
+  constexpr double radius = 10.0;
   Polyline circle;
   for (int k = 0; k < steps; ++k) {
     const double t = 2.0 * pi * k / steps;
@@ -97,7 +97,7 @@ TEST(Turning, ACircleTurnsOnceRound) {
 TEST(Turning, ChainsEndWhereThreeMeetAndShortOnesDoNotCount) {
   const Document document = flat();
   const auto edges = edges_between(*document.mesh, by_square(*document.mesh, [](int x, int y) {
-    return x < side / 2 ? 1u : y < 5 ? 2u : 3u;
+    return x < side / 2 ? 1u : y < 15 ? 2u : 3u;
   }));
   const auto chains = chains_of(*document.mesh, edges);
   EXPECT_EQ(chains.size(), 3u);
@@ -105,7 +105,10 @@ TEST(Turning, ChainsEndWhereThreeMeetAndShortOnesDoNotCount) {
   Polyline five;
   for (int k = 0; k <= 5; ++k) five.emplace_back(k, k % 2, 0.0);
   EXPECT_TRUE(std::isnan(turning_of({five}, 1.0).raw));
-  EXPECT_FALSE(std::isnan(turning_of({five}, 1.0, {.least_edges = 5}).raw));
+  const std::vector<Polyline> many(5, five);  // of 5 sqrt(2) mm each
+  EXPECT_TRUE(std::isnan(turning_of({five}, 1.0, {.least_edges = 5}).raw));
+  EXPECT_NEAR(turning_of(many, 1.0, {.least_edges = 5}).raw, 4.0 * 90.0 / (5.0 * std::sqrt(2.0)),
+              1e-9);
 }
 
 TEST(Turning, OfBordersThatAreNoLinesAgainstTheTruth) {
@@ -116,6 +119,8 @@ TEST(Turning, OfBordersThatAreNoLinesAgainstTheTruth) {
   EXPECT_NEAR(score_of(part, stairs).partitions.turning, 1.0, 1e-12);
   EXPECT_NEAR(score_of(part, stairs).partitions.smoothed_turning, 1.0, 1e-12);
   EXPECT_NEAR(score_of(part, halves(mesh)).partitions.turning, 0.0, 1e-9);
+  EXPECT_TRUE(std::isnan(score_of(part_of(document, halves(mesh)), stairs).partitions.turning))
+      << "against a straight border";
   Found lines_only;
   lines_only.labels = stairs;
   lines_only.line_edges = edges_between(mesh, stairs);
@@ -152,12 +157,12 @@ TEST(Partitions, RandIndexAndShares) {
   EXPECT_NEAR(half.assigned, 0.5, 1e-12);
 }
 
-/// Proposals on the flat lattice, true border at x = 10 and a true curve that parts nothing at
-/// x = 4.
+/// Proposals on the flat lattice, true border at x = 20 and a true curve that parts nothing at
+/// x = 8.
 class Proposals : public ::testing::Test {
  protected:
   Proposals() : document_(flat()), part_(part_of(document_, halves(*document_.mesh))) {
-    part_.truth.curves.push_back(segment({4.0, 0.0, 0.0}, {4.0, side, 0.0}, 15.0, Demand::may));
+    part_.truth.curves.push_back(segment({8.0, 0.0, 0.0}, {8.0, side, 0.0}, 15.0, Demand::may));
   }
 
   VertexId vertex_at(double x, double y) const {
@@ -191,33 +196,33 @@ class Proposals : public ::testing::Test {
 };
 
 TEST_F(Proposals, ALeakIsRightAlongTheBorderOfTwoPatches) {
-  EXPECT_EQ(leak({up(10, 5, 15)}), true);
-  EXPECT_EQ(leak({up(11, 5, 15)}), true) << "an edge beside it";
-  EXPECT_EQ(leak({up(16, 5, 15)}), false) << "far from it";
-  EXPECT_EQ(leak({up(4, 5, 15)}), false) << "along a curve inside one patch";
+  EXPECT_EQ(leak({up(20, 5, 15)}), true);
+  EXPECT_EQ(leak({up(21, 5, 15)}), true) << "an edge beside it";
+  EXPECT_EQ(leak({up(30, 5, 15)}), false) << "far from it";
+  EXPECT_EQ(leak({up(8, 5, 15)}), false) << "along a curve inside one patch";
 }
 
 TEST_F(Proposals, MostOfAllPathsOfALeakMustBeRight) {
-  EXPECT_EQ(leak({up(10, 2, 10), up(16, 2, 4)}), true);
-  EXPECT_EQ(leak({up(10, 2, 6), up(16, 2, 6)}), false);
+  EXPECT_EQ(leak({up(20, 2, 10), up(30, 2, 4)}), true);
+  EXPECT_EQ(leak({up(20, 2, 6), up(30, 2, 6)}), false);
 }
 
 TEST_F(Proposals, ALooseEndIsRightAlongAnyTrueCurve) {
-  EXPECT_EQ(loose_end(up(4, 5, 15)), true);
-  EXPECT_EQ(loose_end(up(10, 5, 15)), true);
-  EXPECT_EQ(loose_end(up(16, 5, 15)), false);
+  EXPECT_EQ(loose_end(up(8, 5, 15)), true);
+  EXPECT_EQ(loose_end(up(20, 5, 15)), true);
+  EXPECT_EQ(loose_end(up(30, 5, 15)), false);
 }
 
 TEST_F(Proposals, WhatProposesNothingOfTheTruthIsNotJudged) {
   WorkItem item;
   item.kind = WorkKind::many_borders;
-  item.paths = {up(10, 5, 15)};
+  item.paths = {up(20, 5, 15)};
   EXPECT_EQ(ProposalJudge(part_).is_right(document_, item), std::nullopt);
   item = {};
   item.kind = WorkKind::loose_end;
   EXPECT_EQ(ProposalJudge(part_).is_right(document_, item), std::nullopt) << "no way on";
   part_.truth.patches.clear();
-  EXPECT_EQ(leak({up(10, 5, 15)}), std::nullopt);
+  EXPECT_EQ(leak({up(20, 5, 15)}), std::nullopt);
 }
 
 }  // namespace

@@ -19,9 +19,11 @@ struct ProposalCount {
 };
 
 struct ProposalOptions {
-  double share = 0.6;       // of the length of the paths on which the truth must agree
-  double reach = 2.0;       // mean edges of the scan: how near a path is to a true line
-  double side_reach = 3.0;  // mean edges: how far from its path a side is looked at
+  double share = 0.6;  // of the length of the paths on which the truth must agree
+  double reach = 2.0;  // mean edges of the scan: how near a path is to a true line
+  // Mean edges: how far from its path a side is looked at. Of the half disc of this radius on one
+  // side more than half lies beyond a true border at up to 0.4 of the radius, which is `reach`.
+  double side_reach = 5.0;
 };
 
 /// Judges what a worklist proposes by the true curves and patches of a part. What depends on the

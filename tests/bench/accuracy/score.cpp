@@ -92,6 +92,12 @@ Turning true_turning(const Part& part, const KdTree& due, double mean_edge) {
   return turning_of(chains_of(mesh, edges), mean_edge);
 }
 
+/// NaN where the truth has no turn to speak of.
+double ratio(double found, double truth) {
+  constexpr double straight = 0.01;  // degrees for each mean edge
+  return truth > straight ? found / truth : unknown;
+}
+
 /// Area-weighted Rand index of two divisions of the same faces: the share of pairs of points on
 /// which they agree. `areas`: of the common part of each two of their pieces, adding up to 1.
 double rand_index(const std::map<std::uint32_t, std::map<std::uint32_t, double>>& areas) {
@@ -165,8 +171,8 @@ Result<Score> Scorer::score(const Found& found) const {
   Score score{score_lines(found.lines), score_partitions(found.labels), {}};
   if (!found.labels.empty() && !part_.truth.patches.empty()) {
     const Turning turning = found_turning(found);
-    score.partitions.turning = turning.raw / true_turning_.raw;
-    score.partitions.smoothed_turning = turning.smoothed / true_turning_.smoothed;
+    score.partitions.turning = ratio(turning.raw, true_turning_.raw);
+    score.partitions.smoothed_turning = ratio(turning.smoothed, true_turning_.smoothed);
   }
   if (found.document && !part_.truth.patches.empty()) {
     Result<std::vector<ProposalCount>> proposals = judge_.count(*found.document);

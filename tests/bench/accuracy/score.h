@@ -37,7 +37,8 @@ struct PartitionScore {
   double largest = unknown;   ///< Share of the area that belongs to the largest partition.
   /// How much borders between partitions that are not lines turn, in the turning of those between
   /// true patches that are no curve to be found: as they run along the edges of the mesh, and with
-  /// the zigzag of the mesh averaged away (see Turning). Above 1: more ragged than the truth.
+  /// the zigzag of the mesh averaged away (see Turning). Above 1: more ragged than the truth. NaN
+  /// also where there is too little of either, or the truth's are straight.
   double turning = unknown, smoothed_turning = unknown;
   bool has_corrections = false;
   std::size_t connects = 0;  ///< A patch in n pieces takes n - 1.

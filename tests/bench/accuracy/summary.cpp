@@ -98,7 +98,7 @@ double fold(const std::vector<const Row*>& rows, const Column& column) {
   return count == 0.0 ? unknown : column.fold == Fold::sum ? sum : sum / count;
 }
 
-// fmin and fmax pass NaN over.
+// Worst of the cases that tell: fmin and fmax pass NaN over.
 
 double worst_f1(const std::vector<const Row*>& rows) {
   double worst = unknown;
@@ -182,12 +182,13 @@ Table group_table(const std::vector<Row>& rows) {
   return table;
 }
 
-Table proposal_table(const std::vector<Row>& rows) {
+std::optional<Table> proposal_table(const std::vector<Row>& rows) {
   std::vector<WorkKind> kinds;
   for (const Row& row : rows)
     if (row.score.proposals)
       for (const ProposalCount& count : *row.score.proposals)
         if (std::ranges::find(kinds, count.kind) == kinds.end()) kinds.push_back(count.kind);
+  if (kinds.empty()) return std::nullopt;
   std::ranges::sort(kinds);
   std::vector<std::string> header{"case", "method"};
   for (const WorkKind kind : kinds) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ Table case_table(const std::vector<Row>& rows);
 Table group_table(const std::vector<Row>& rows);
 
 /// How many proposals the worklist makes and how many of them are right, by kind: a row for each
-/// case, then for each group of cases, and method. What makes none has no row.
-Table proposal_table(const std::vector<Row>& rows);
+/// case, then for each group of cases, and method. What makes none has no row; absent where there
+/// is no row.
+std::optional<Table> proposal_table(const std::vector<Row>& rows);
 
 /// What the headings of the tables mean, in lines of up to 100 characters.
 std::string legend();

@@ -59,7 +59,7 @@ Turning turning_of(const std::vector<Polyline>& chains, double mean_edge,
     smoothed_turn += turn_of(smooth);
     smoothed_length += length_of(smooth);
   }
-  if (!(smoothed_length > 0.0)) return {};
+  if (length < options.least_length * mean_edge || !(smoothed_length > 0.0)) return {};
   const double degrees = mean_edge * 180.0 / std::numbers::pi;
   return {degrees * turn / length, degrees * smoothed_turn / smoothed_length};
 }

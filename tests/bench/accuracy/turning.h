@@ -11,10 +11,12 @@ namespace arris::accuracy {
 
 struct TurningOptions {
   std::size_t least_edges = 6;  // of a chain; in a shorter one chance decides
+  double least_length = 30.0;   // mean edges, of all these chains; in less chance decides, too
   int rounds = 4;               // of averaging; 4 take off zigzag of up to four edges
 };
 
-/// How much chains of points turn, in degrees for each mean edge of their mesh. NaN: no chain.
+/// How much chains of points turn, in degrees for each mean edge of their mesh. NaN: too little
+/// of them.
 struct Turning {
   /// Of the chains as they run along the edges of the mesh. There all of them zigzag, a straight
   /// border on a regular lattice too where it runs across the lattice; so this figure says how
