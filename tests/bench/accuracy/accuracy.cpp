@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,13 @@ Result<void> run_case(const Case& item, const std::vector<Method>& methods, cons
       if (auto saved = save_found((folder / folder_name(method.name)).string(), *part, *found);
           !saved)
         return saved;
-    rows.push_back({item.name, item.groups, method.name, scorer.score(*found), found->seconds});
+    Result<Score> score = scorer.score(*found);
+    if (!score) {
+      complain(item.name + ", " + method.name + ": " + score.error().message, 0);
+      ++failures;
+      continue;
+    }
+    rows.push_back({item.name, item.groups, method.name, std::move(*score), found->seconds});
   }
   return {};
 }
@@ -106,6 +113,7 @@ int main(int argc, char** argv) {
       "How well ways to find sharp lines and partitions do on parts with known truth.\n"
       "Exit codes: 0 done, 1 bad input or a method that failed, 2 bad usage.",
       "arris_accuracy");
+  app.footer(legend());
   std::string data;
   Wishes wishes;
   std::vector<std::string> names, added;
@@ -165,7 +173,12 @@ int main(int argc, char** argv) {
   if (!summary_only) {
     case_table(rows).print(markdown);
     std::printf("\n");
+    if (const std::optional<Table> proposals = proposal_table(rows)) {
+      proposals->print(markdown);
+      std::printf("\n");
+    }
   }
   group_table(rows).print(markdown);
+  std::printf("\n%s", legend().c_str());
   return failures == 0 ? 0 : bad_input;
 }

@@ -10,10 +10,14 @@
 
 #ifdef ARRIS_ACCURACY_VTK
 #include <vtkCellArray.h>
+#include <vtkDataArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataConnectivityFilter.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkStripper.h>
 #endif
 
@@ -23,6 +27,7 @@
 #include "core/partitions/intervals.h"
 #include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/lines.h"
+#include "tests/bench/accuracy/turning.h"
 
 namespace arris::accuracy {
 
@@ -50,6 +55,31 @@ Polyline polyline(const Mesh& mesh, const std::vector<VertexId>& path) {
   return line;
 }
 
+/// The edges that are lines, of one origin for each edge.
+template <class Origins>
+std::vector<EdgeId> line_edges_of(const Origins& origins, std::size_t count) {
+  std::vector<EdgeId> edges;
+  for (EdgeId e = 0; e < count; ++e)
+    if (origins[e] != Origin::none) edges.push_back(e);
+  return edges;
+}
+
+/// The lines of a document; as edges only where its mesh is the scan's.
+void add_lines(const Document& document, Found& found) {
+  for (const LinePtr& line : document.lines.lines)
+    found.lines.push_back(polyline(*document.mesh, line->vertices));
+  if (document.mesh == document.scan->mesh)
+    found.line_edges = line_edges_of(document.lines.edges, document.lines.edges.size());
+}
+
+/// The lines along edges of the scan's mesh.
+void add_lines(const Mesh& mesh, const Curvatures& curvatures, const std::vector<Origin>& edges,
+               Found& found) {
+  for (const Line& line : derive_lines(mesh, curvatures, edges))
+    found.lines.push_back(polyline(mesh, line.vertices));
+  found.line_edges = line_edges_of(edges, edges.size());
+}
+
 Result<Found> run_operations(const std::vector<Operation>& operations, const ScanPtr& scan) {
   Result<Document> document = opened(scan);
   for (const Operation& operation : operations) {
@@ -58,9 +88,9 @@ Result<Found> run_operations(const std::vector<Operation>& operations, const Sca
   }
   if (!document) return tl::unexpected<Error>(document.error());
   Found found;
-  for (const LinePtr& line : document->lines.lines)
-    found.lines.push_back(polyline(*document->mesh, line->vertices));
+  add_lines(*document, found);
   if (document->find_partitions) found.labels = labels_on_scan(*document);
+  found.document = std::make_shared<const Document>(std::move(*document));
   return found;
 }
 
@@ -85,8 +115,7 @@ Result<Found> jump_lines(const ScanPtr& scan, const Idea& idea) {
   std::vector<Origin> edges(mesh.edge_count(), Origin::none);
   for (const EdgeId e : (*evidence)->candidates.choose(choice)) edges[e] = Origin::found;
   Found found;
-  for (const Line& line : derive_lines(mesh, **curvatures, edges))
-    found.lines.push_back(polyline(mesh, line.vertices));
+  add_lines(mesh, **curvatures, edges, found);
   return found;
 }
 
@@ -124,8 +153,7 @@ Result<Found> surface_areas(const ScanPtr& scan, const AreaIdea& idea) {
   if (document) document = apply(*document, {"find_sharp_lines"});
   if (!document) return tl::unexpected<Error>(document.error());
   Found found;
-  for (const LinePtr& line : document->lines.lines)
-    found.lines.push_back(polyline(*document->mesh, line->vertices));
+  add_lines(*document, found);
   AreaTreeOptions options;
   idea.change(options);
   const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, options, {});
@@ -160,15 +188,12 @@ Result<Found> dihedral_lines(const ScanPtr& scan) {
     if (std::abs((*curvatures)->beta[e]) > dihedral_angle * std::numbers::pi / 180.0)
       edges[e] = Origin::found;
   Found found;
-  for (const Line& line : derive_lines(mesh, **curvatures, edges))
-    found.lines.push_back(polyline(mesh, line.vertices));
+  add_lines(mesh, **curvatures, edges, found);
   return found;
 }
 
 #ifdef ARRIS_ACCURACY_VTK
-/// vtkFeatureEdges, its edges joined by vtkStripper.
-Result<Found> vtk_feature_edges(const ScanPtr& scan) {
-  const Mesh& mesh = *scan->mesh;
+vtkNew<vtkPolyData> vtk_surface(const Mesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const Point& p : mesh.points()) points->InsertNextPoint(p.data());
@@ -177,6 +202,13 @@ Result<Found> vtk_feature_edges(const ScanPtr& scan) {
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(points);
   surface->SetPolys(faces);
+  return surface;
+}
+
+/// vtkFeatureEdges, its edges joined by vtkStripper.
+Result<Found> vtk_feature_edges(const ScanPtr& scan) {
+  const Mesh& mesh = *scan->mesh;
+  const vtkNew<vtkPolyData> surface = vtk_surface(mesh);
   vtkNew<vtkFeatureEdges> features;
   features->SetInputData(surface);
   features->SetFeatureAngle(dihedral_angle);
@@ -204,6 +236,40 @@ Result<Found> vtk_feature_edges(const ScanPtr& scan) {
     }
     found.lines.push_back(std::move(line));
   }
+  return found;
+}
+
+/// The surface split at its sharp edges by vtkPolyDataNormals, its pieces by
+/// vtkPolyDataConnectivityFilter, specks and all; with the lines of vtkFeatureEdges at the same
+/// angle.
+Result<Found> vtk_connectivity(const ScanPtr& scan) {
+  const Mesh& mesh = *scan->mesh;
+  Result<Found> found = vtk_feature_edges(scan);
+  if (!found) return found;
+
+  const vtkNew<vtkPolyData> surface = vtk_surface(mesh);
+  vtkNew<vtkPolyDataNormals> split;
+  split->SetInputData(surface);
+  split->SetFeatureAngle(dihedral_angle);
+  split->SplittingOn();
+  split->ConsistencyOff();  // the mesh is consistent
+  vtkNew<vtkPolyDataConnectivityFilter> pieces;
+  pieces->SetInputConnection(split->GetOutputPort());
+  pieces->SetExtractionModeToAllRegions();
+  pieces->ColorRegionsOn();
+  pieces->Update();
+
+  // The filter numbers points anew, and leaves the faces in their order.
+  vtkPolyData* output = pieces->GetOutput();
+  vtkDataArray* regions = output->GetPointData()->GetArray("RegionId");
+  vtkCellArray* faces = output->GetPolys();
+  if (!regions || faces->GetNumberOfCells() != static_cast<vtkIdType>(mesh.face_count()))
+    return fail("vtkPolyDataConnectivityFilter did not number the regions of all faces.");
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  for (faces->InitTraversal(); faces->GetNextCell(count, ids);)
+    found->labels.push_back(static_cast<std::uint32_t>(regions->GetTuple1(ids[0])) + 1);
+  found->line_edges = edges_between(mesh, found->labels);  // pieces end at sharp edges only
   return found;
 }
 #endif
@@ -265,6 +331,7 @@ std::vector<Method> method_table(bool with_ideas) {
   methods.push_back(timed("dihedral 30", dihedral_lines));
 #ifdef ARRIS_ACCURACY_VTK
   methods.push_back(timed("vtkFeatureEdges", vtk_feature_edges));
+  methods.push_back(timed("vtk connectivity", vtk_connectivity));
 #endif
   return methods;
 }

@@ -2,11 +2,17 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/mesh/scan.h"
+
+namespace arris {
+struct Document;
+}
 
 namespace arris::accuracy {
 
@@ -66,8 +72,13 @@ struct Case {
 /// What a method found.
 struct Found {
   std::vector<Polyline> lines;
+  /// The edges of the scan's mesh that the lines run along, ascending; absent: the lines run on
+  /// another mesh.
+  std::optional<std::vector<EdgeId>> line_edges;
   std::vector<std::uint32_t>
-      labels;            ///< Per face of the scan's mesh, 0: none; empty: not looked for.
+      labels;  ///< Per face of the scan's mesh, 0: none; empty: not looked for.
+  /// What has a worklist; null: the method is not one of operations on a document.
+  std::shared_ptr<const Document> document;
   double seconds = 0.0;  ///< From the mesh in memory to lines and labels.
 };
 

@@ -2,28 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "core/base/parallel.h"
 
 namespace arris::accuracy {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-void add_samples(const Polyline& line, double step, LengthSamples& samples) {
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const Point along = line[i + 1] - line[i];
-    const double length = along.norm();
-    const double pieces = std::max(1.0, std::ceil(length / step));
-    for (double k = 0.0; k < pieces; ++k) {
-      samples.points.push_back(line[i] + along * ((k + 0.5) / pieces));
-      samples.lengths.push_back(length / pieces);
-    }
-  }
-}
 
 LengthSamples samples_of(const Truth& truth, Demand demand, double step) {
   LengthSamples samples;
@@ -85,9 +72,48 @@ std::vector<Point> narrow_centres(const Part& part) {
   return narrow_centres(*part.scan->mesh, part.truth.surfaces, part.tolerance);
 }
 
+Point middle_of(const Mesh& mesh, EdgeId e) {
+  return (mesh.point(mesh.edge(e)[0]) + mesh.point(mesh.edge(e)[1])) / 2.0;
+}
+
 std::vector<Point> joined(std::vector<Point> a, const std::vector<Point>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
+}
+
+/// The part's true borders that no sharp line shows: those of patches away from the curves that
+/// must be found.
+Turning true_turning(const Part& part, const KdTree& due, double mean_edge) {
+  if (part.truth.patches.empty()) return {};
+  const Mesh& mesh = *part.scan->mesh;
+  std::vector<EdgeId> edges = edges_between(mesh, part.truth.patches);
+  std::erase_if(edges,
+                [&](EdgeId e) { return due.has_within(middle_of(mesh, e), part.tolerance); });
+  return turning_of(chains_of(mesh, edges), mean_edge);
+}
+
+/// NaN where the truth has no turn to speak of.
+double ratio(double found, double truth) {
+  constexpr double straight = 0.01;  // degrees for each mean edge
+  return truth > straight ? found / truth : unknown;
+}
+
+/// Area-weighted Rand index of two divisions of the same faces: the share of pairs of points on
+/// which they agree. `areas`: of the common part of each two of their pieces, adding up to 1.
+double rand_index(const std::map<std::uint32_t, std::map<std::uint32_t, double>>& areas) {
+  double pairs = 0.0, first = 0.0, second = 0.0;
+  std::map<std::uint32_t, double> columns;
+  for (const auto& [row, common] : areas) {
+    double whole = 0.0;
+    for (const auto& [column, area] : common) {
+      pairs += area * area;
+      whole += area;
+      columns[column] += area;
+    }
+    first += whole * whole;
+  }
+  for (const auto& [column, whole] : columns) second += whole * whole;
+  return 1.0 + 2.0 * pairs - first - second;
 }
 
 /// For each point whether the tree has one within `reach`.
@@ -107,6 +133,20 @@ double Score::corrections_per_target() const {
          static_cast<double>(std::max<std::size_t>(targets, 1));
 }
 
+std::size_t Score::proposals_made() const {
+  std::size_t made = 0;
+  if (proposals)
+    for (const ProposalCount& count : *proposals) made += count.made;
+  return made;
+}
+
+double Score::right_share() const {
+  if (proposals_made() == 0) return unknown;
+  double right = 0.0;
+  for (const ProposalCount& count : *proposals) right += static_cast<double>(count.right);
+  return right / static_cast<double>(proposals_made());
+}
+
 Scorer::Scorer(const Part& part)
     : part_(part),
       tolerance_(part.tolerance),
@@ -116,7 +156,9 @@ Scorer::Scorer(const Part& part)
       due_tree_(due_.points),
       narrow_(narrow_centres(part)),
       free_(joined(samples_of(part.truth, Demand::may, tolerance_ / 4.0).points, narrow_.points())),
-      shown_(near_to(narrow_, due_.points, tolerance_)) {
+      shown_(near_to(narrow_, due_.points, tolerance_)),
+      true_turning_(true_turning(part, due_tree_, mean_edge_)),
+      judge_(part) {
   for (char& is_shown : shown_) is_shown = !is_shown;
   const Mesh& mesh = *part.scan->mesh;
   for (const Triangle& t : mesh.triangles())
@@ -125,8 +167,19 @@ Scorer::Scorer(const Part& part)
         (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm());
 }
 
-Score Scorer::score(const Found& found) const {
-  return {score_lines(found.lines), score_partitions(found.labels)};
+Result<Score> Scorer::score(const Found& found) const {
+  Score score{score_lines(found.lines), score_partitions(found.labels), {}};
+  if (!found.labels.empty() && !part_.truth.patches.empty()) {
+    const Turning turning = found_turning(found);
+    score.partitions.turning = ratio(turning.raw, true_turning_.raw);
+    score.partitions.smoothed_turning = ratio(turning.smoothed, true_turning_.smoothed);
+  }
+  if (found.document && !part_.truth.patches.empty()) {
+    Result<std::vector<ProposalCount>> proposals = judge_.count(*found.document);
+    if (!proposals) return tl::unexpected<Error>(proposals.error());
+    score.proposals = std::move(*proposals);
+  }
+  return score;
 }
 
 LineScore Scorer::score_lines(const std::vector<Polyline>& lines) const {
@@ -226,8 +279,37 @@ void Scorer::count_line_corrections(const std::vector<LengthSamples>& samples,
   }
 }
 
+double Scorer::score_rand(const std::vector<std::uint32_t>& labels, double total) const {
+  // A few faces of no partition are pieces of their own, many are one piece.
+  constexpr std::ptrdiff_t few = 2000;
+  const bool apart = std::ranges::count(labels, 0u) < few;
+  std::uint32_t next = labels.empty() ? 0 : std::ranges::max(labels);
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;
+  for (FaceId f = 0; f < areas_.size(); ++f) {
+    const std::uint32_t piece = labels[f] == 0 && apart ? ++next : labels[f];
+    areas[part_.truth.patches[f]][piece] += areas_[f] / total;
+  }
+  return rand_index(areas);
+}
+
+Turning Scorer::found_turning(const Found& found) const {
+  const Mesh& mesh = *part_.scan->mesh;
+  std::vector<EdgeId> edges = edges_between(mesh, found.labels, 0);
+  if (found.line_edges) {
+    std::vector<EdgeId> soft;
+    std::ranges::set_difference(edges, *found.line_edges, std::back_inserter(soft));
+    edges = std::move(soft);
+  } else {
+    LengthSamples lines;
+    for (const Polyline& line : found.lines) add_samples(line, tolerance_ / 4.0, lines);
+    const KdTree tree(std::move(lines.points));
+    std::erase_if(edges, [&](EdgeId e) { return tree.has_within(middle_of(mesh, e), tolerance_); });
+  }
+  return turning_of(chains_of(mesh, edges), mean_edge_);
+}
+
 PartitionScore Scorer::score_partitions(const std::vector<std::uint32_t>& labels) const {
-  PartitionScore score{unknown, unknown};
+  PartitionScore score;
   const std::vector<std::uint32_t>& patches = part_.truth.patches;
   if (labels.empty()) return score;
   std::map<std::uint32_t, double> partition_areas, patch_areas;
@@ -242,6 +324,9 @@ PartitionScore Scorer::score_partitions(const std::vector<std::uint32_t>& labels
     shared[patches[f]][labels[f]] += areas_[f];
   }
   score.assigned = assigned / total;
+  score.largest = 0.0;
+  for (const auto& [partition, area] : partition_areas)
+    if (partition != 0) score.largest = std::max(score.largest, area / total);
   if (patches.empty()) return score;
 
   score.has_corrections = true;
@@ -277,6 +362,7 @@ PartitionScore Scorer::score_partitions(const std::vector<std::uint32_t>& labels
     if (main != 0) ++covered[main];
   }
   for (const auto& [partition, count] : covered) score.splits += count - 1;
+  score.rand = score_rand(labels, total);
   return score;
 }
 

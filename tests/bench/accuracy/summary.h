@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,16 @@ struct Row {
 Table case_table(const std::vector<Row>& rows);
 
 /// A row for each group of cases and method, the first groups of all cases first: means over the
-/// cases that tell (of F1 and corrections for each target the worst, too), counts and seconds as
-/// sums.
+/// cases that tell (of F1, corrections for each target and proposals that are right the worst,
+/// too), counts and seconds as sums.
 Table group_table(const std::vector<Row>& rows);
+
+/// How many proposals the worklist makes and how many of them are right, by kind: a row for each
+/// case, then for each group of cases, and method. What makes none has no row; absent where there
+/// is no row.
+std::optional<Table> proposal_table(const std::vector<Row>& rows);
+
+/// What the headings of the tables mean, in lines of up to 100 characters.
+std::string legend();
 
 }  // namespace arris::accuracy
