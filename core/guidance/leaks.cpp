@@ -1,9 +1,8 @@
 #include "core/guidance/leaks.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -13,6 +12,9 @@
 #include "core/base/parallel.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
+#include "core/partitions/border_kink.h"
+#include "core/partitions/smallest_areas.h"
+#include "core/sharp_lines/normal_noise.h"
 #include "core/sharp_lines/sharp_lines.h"
 
 namespace arris {
@@ -31,23 +33,8 @@ constexpr double least_gap = 3.0;
 struct Gap {
   std::uint32_t partition;
   double length;
-  double sharpness;  // 0 to 1
   std::vector<VertexId> vertices;
   std::vector<EdgeId> edges;
-};
-
-/// A region of a partition between lines and gaps.
-struct Region {
-  double area = 0.0;
-  double value = 0.0;       // sum of area * criterion
-  double value_area = 0.0;  // area of the faces that have one
-
-  Region& operator+=(const Region& other) {
-    area += other.area;
-    value += other.value;
-    value_area += other.value_area;
-    return *this;
-  }
 };
 
 /// Two regions that meet along edges of these gaps (sorted, at least one).
@@ -76,9 +63,9 @@ class Groups {
 };
 
 /// Gaps from one loose end through each of the large partitions it lies in.
-std::vector<Gap> gaps_from(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
-                           const Partitions& partitions, const LineEnds& ends, const LooseEnd& end,
-                           double least_area, double clear_angle, double reach) {
+std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Partitions& partitions,
+                           const LineEnds& ends, const LooseEnd& end, double least_area,
+                           double reach) {
   std::set<std::uint32_t> labels;
   mesh.for_ring(end.vertex, [&](HalfEdgeId h) {
     const Partition* partition =
@@ -111,14 +98,11 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const Curvatures& curvatures, const
           if (round != along.end() && round->second < LineEnds::detour * length)
             return Visit::do_not_pass;
           if (!arrived.insert(line).second) return Visit::do_not_pass;
-          Gap gap{label, length, 0.0, {end.vertex}, {}};
-          double turn = 0.0;
+          Gap gap{label, length, {end.vertex}, {}};
           for (const HalfEdgeId h : search.path_to(v)) {
             gap.vertices.push_back(mesh.to(h));
             gap.edges.push_back(h >> 1);
-            turn += std::abs(curvatures.beta[h >> 1]) * mesh.edge_length(h >> 1);
           }
-          gap.sharpness = std::min(1.0, turn / (length * std::max(clear_angle, 1e-6)));
           gaps.push_back(std::move(gap));
           return arrived.size() < most_ways ? Visit::do_not_pass : Visit::finish;
         });
@@ -126,7 +110,13 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const Curvatures& curvatures, const
   return gaps;
 }
 
-/// The gaps of one partition and the regions they part it into.
+/// What closing some gaps parts.
+struct Parted {
+  Leak leak;
+  std::vector<bool> beyond;  // per region of the partition: on the second side
+};
+
+/// The gaps of one partition and the regions (between lines and gaps) they part it into.
 class PartedPartition {
  public:
   PartedPartition(std::vector<Gap> gaps, double floor) : gaps_(std::move(gaps)), least_gap_(floor) {
@@ -144,8 +134,8 @@ class PartedPartition {
   }
 
   bool is_gap(EdgeId e) const { return gaps_at_.contains(e); }
-  std::uint32_t region_count() const { return static_cast<std::uint32_t>(regions_.size()); }
-  void add_region(const Region& region) { regions_.push_back(region); }
+  std::uint32_t region_count() const { return static_cast<std::uint32_t>(areas_.size()); }
+  void add_region(double area) { areas_.push_back(area); }
   /// `region_of(f)`: the region of a face; no_id outside the partition.
   template <class RegionOf>
   void link(const Mesh& mesh, const RegionOf& region_of) {
@@ -163,10 +153,10 @@ class PartedPartition {
       }
   }
 
-  std::vector<Leak> leaks() const {
-    std::vector<Leak> result;
+  std::vector<Parted> parted() const {
+    std::vector<Parted> result;
     for (std::uint32_t g = 0; g < gaps_.size(); ++g)
-      if (std::optional<Leak> leak = weigh(g)) result.push_back(std::move(*leak));
+      if (std::optional<Parted> parted = weigh(g)) result.push_back(std::move(*parted));
     return result;
   }
 
@@ -174,8 +164,8 @@ class PartedPartition {
   /// Closes gap g and those that are shorter. Where that parts the two sides of g, opens again,
   /// the longest first, what does not join them: the gaps that stay closed part the partition in
   /// two. Where g alone does it, all others open again.
-  std::optional<Leak> weigh(std::uint32_t g) const {
-    Groups groups(regions_.size());
+  std::optional<Parted> weigh(std::uint32_t g) const {
+    Groups groups(areas_.size());
     for (const Link& link : links_)
       if (link.gaps.front() > g) groups.join(link.a, link.b);
     const auto parting = std::ranges::find_if(links_of_[g], [&](std::uint32_t l) {
@@ -200,26 +190,21 @@ class PartedPartition {
         for (const auto& [a, b] : opening) groups.join(a, b);
       }
     }
-    Region first, second;
-    for (std::uint32_t r = 0; r < regions_.size(); ++r)
-      (groups.find(r) == groups.find(one) ? first : second) += regions_[r];
-    double contrast = 0.0;
-    if (first.value_area > 0.0 && second.value_area > 0.0) {
-      const double x = first.value / first.value_area, y = second.value / second.value_area;
-      if (x + y > 0.0) contrast = std::abs(x - y) / (x + y);
+    Parted parted{{}, std::vector<bool>(areas_.size())};
+    double first = 0.0, second = 0.0;
+    for (std::uint32_t r = 0; r < areas_.size(); ++r) {
+      parted.beyond[r] = groups.find(r) != groups.find(one);
+      (parted.beyond[r] ? second : first) += areas_[r];
     }
-    double length = 0.0, sharpness = 0.0;
-    for (const std::uint32_t k : kept) {
-      length += gaps_[k].length;
-      sharpness += gaps_[k].length * gaps_[k].sharpness;
-    }
-    sharpness /= length;
-    const double area = std::min(first.area, second.area);
-    const double floored = std::max(length, least_gap_);
-    const double score = area / (floored * floored) * (1.0 + contrast) * (0.2 + 0.8 * sharpness);
-    Leak leak{gaps_[g].partition, gaps_[g].vertices, {}, length, area, contrast, score};
+    Leak& leak = parted.leak;
+    leak.partition = gaps_[g].partition;
+    leak.path = gaps_[g].vertices;
+    for (const std::uint32_t k : kept) leak.gap += gaps_[k].length;
     for (std::size_t k = 1; k < kept.size(); ++k) leak.others.push_back(gaps_[kept[k]].vertices);
-    return leak;
+    leak.area = std::min(first, second);
+    const double floored = std::max(leak.gap, least_gap_);
+    leak.score = leak.area / (floored * floored);
+    return parted;
   }
 
   /// Whether the pairs of groups connect `from` with `to`.
@@ -239,16 +224,49 @@ class PartedPartition {
   std::vector<Gap> gaps_;  // by increasing length
   const double least_gap_;
   std::unordered_map<EdgeId, std::vector<std::uint32_t>> gaps_at_;
-  std::vector<Region> regions_;
+  std::vector<double> areas_;  // of regions
   std::vector<Link> links_;
   std::vector<std::vector<std::uint32_t>> links_of_;  // per gap
 };
 
+/// Measures how far the two sides of gaps are from one smooth surface.
+class Kinks {
+ public:
+  Kinks(const Mesh& mesh, const SharpLines& lines)
+      : mesh_(mesh),
+        table_(table_between_lines(mesh, lines)),
+        banded_(faces_beside_lines(mesh, lines, table_, {})),
+        noise_(normal_noise(mesh, table_)),
+        window_(table_) {}
+
+  double over(const Leak& leak, const std::function<int(FaceId)>& side_of) {
+    double least = over(leak.path, side_of);
+    for (const std::vector<VertexId>& path : leak.others)
+      least = std::min(least, over(path, side_of));
+    return least;
+  }
+
+ private:
+  double over(const std::vector<VertexId>& path, const std::function<int(FaceId)>& side_of) {
+    const BorderSums sums = measure_path(mesh_, table_, half_edges_of(mesh_, path), side_of,
+                                         banded_, options_, window_);
+    return static_cast<double>(
+        clear_kink(sums, options_, noise_, std::numeric_limits<float>::infinity()));
+  }
+
+  const Mesh& mesh_;
+  const FaceTable table_;
+  const std::vector<std::uint8_t> banded_;
+  const float noise_;
+  const BorderKinkOptions options_;
+  FaceWindow window_;
+};
+
 }  // namespace
 
-Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatures,
-                                     const SharpLines& lines, const Partitions& partitions,
-                                     const LeakOptions& options, const Context& context) {
+Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const SharpLines& lines,
+                                     const Partitions& partitions, const LeakOptions& options,
+                                     const Context& context) {
   context.report(0.0, "leaks");
   std::vector<Leak> leaks;
   if (partitions.partitions.empty() || lines.lines.empty()) return leaks;
@@ -258,16 +276,13 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
   const double least_area = mean_area * (1.0 - 1e-9);  // so that equal ones all count
 
   const LineEnds ends(mesh, lines);
-  // Twice what noise alone gives an edge: a line that was missed turns more.
-  const double clear_angle = 2.0 * angle_noise(curvatures) * std::numbers::pi / 180.0;
   const double reach = options.reach * mesh.mean_edge_length();
   std::vector<std::vector<Gap>> found(ends.loose().size());
   parallel_for(
       found.size(),
       [&](std::size_t k) {
         if (!context.cancelled())
-          found[k] = gaps_from(mesh, curvatures, lines, partitions, ends, ends.loose()[k],
-                               least_area, clear_angle, reach);
+          found[k] = gaps_from(mesh, lines, partitions, ends, ends.loose()[k], least_area, reach);
       },
       16);
   if (context.cancelled()) return cancelled();
@@ -294,24 +309,15 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
     const auto entry = parted.find(label);
     if (entry == parted.end()) continue;
     PartedPartition& parts = entry->second;
-    const std::vector<double>& values = values_of(curvatures, partitions.find(label)->criterion);
-    Region region;
+    double region = 0.0;
     const std::uint32_t number = parts.region_count();
     front.assign(1, start);
     region_of[start] = number;
     for (std::size_t next = 0; next < front.size(); ++next) {
       const FaceId f = front[next];
-      const double area = face_area(mesh, f);
-      region.area += area;
-      double sum = 0.0;
-      int count = 0;
+      region += face_area(mesh, f);
       HalfEdgeId h = mesh.face_half_edge(f);
       for (int corner = 0; corner < 3; ++corner, h = mesh.next(h)) {
-        const VertexId v = mesh.from(h);
-        if (!std::isnan(values[v]) && !mesh.is_border(v) && ends.line_at(v) == 0) {
-          sum += values[v];
-          ++count;
-        }
         const FaceId other = mesh.face(Mesh::opposite(h));
         if (other == no_id || region_of[other] != no_id || partitions.label(other) != label ||
             lines.is_sharp(h >> 1) || parts.is_gap(h >> 1))
@@ -319,22 +325,31 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatu
         region_of[other] = number;
         front.push_back(other);
       }
-      if (count == 0) continue;
-      region.value += area * sum / count;
-      region.value_area += area;
     }
     parts.add_region(region);
   }
   context.report(0.8, "leaks");
+  std::optional<Kinks> kinks;
   for (const PartitionPtr& partition : partitions.partitions) {
     const auto entry = parted.find(partition->id);
     if (entry == parted.end()) continue;
     if (context.cancelled()) return cancelled();
-    entry->second.link(mesh, [&](FaceId f) {
+    const auto region = [&](FaceId f) {
       return f == no_id || partitions.label(f) != partition->id ? no_id : region_of[f];
-    });
-    for (Leak& leak : entry->second.leaks())
+    };
+    entry->second.link(mesh, region);
+    for (Parted& found_here : entry->second.parted()) {
+      Leak& leak = found_here.leak;
+      if (leak.score < options.least_score) continue;
+      if (!kinks) kinks.emplace(mesh, lines);
+      leak.kink = kinks->over(leak, [&](FaceId f) {
+        const std::uint32_t r = region(f);
+        return r == no_id ? 2 : found_here.beyond[r] ? 1 : 0;
+      });
+      if (leak.kink < options.least_kink) continue;
+      leak.score *= std::min(leak.kink / (4.0 * options.least_kink), 1.0);
       if (leak.score >= options.least_score) leaks.push_back(std::move(leak));
+    }
   }
   std::sort(leaks.begin(), leaks.end(), [](const Leak& a, const Leak& b) {
     if (a.score != b.score) return a.score > b.score;

@@ -5,7 +5,6 @@
 
 #include "core/base/context.h"
 #include "core/base/result.h"
-#include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
 #include "core/partitions/partitions.h"
 #include "core/sharp_lines/lines.h"
@@ -15,6 +14,7 @@ namespace arris {
 struct LeakOptions {
   double reach = 15.0;       ///< Longest gap looked for, in mean edge lengths of the mesh.
   double least_score = 2.0;  ///< Gaps that score less are not worth a look.
+  double least_kink = 2.4;   ///< Degrees; below it one smooth surface runs on over the gap.
   std::size_t most = 200;    ///< Leaks returned.
 };
 
@@ -26,11 +26,11 @@ struct Leak {
   std::vector<std::vector<VertexId>> others;
   double gap = 0.0;   ///< Length of all these paths, mm.
   double area = 0.0;  ///< Of the smaller side that is parted, mm^2.
-  /// How different the two sides are in mean criterion value: 0 (alike) to 1.
-  double contrast = 0.0;
-  /// area / gap^2 (gap counts as 3 mean edges at least), times 1 + contrast,
-  /// times 0.2 (the path is as flat as noise makes edges) to 1 (it turns like a line that was
-  /// missed).
+  /// Degrees (rms) by which one smooth surface over both sides of a path misses more than one on
+  /// each side, the noise taken off (core/partitions/border_kink.h); of the path where it is least.
+  double kink = 0.0;
+  /// area / gap^2 (gap counts as 3 mean edges at least), times 1/4 (least kink) to 1 (four times
+  /// that and more).
   double score = 0.0;
 };
 
@@ -40,11 +40,12 @@ struct Leak {
 /// From each loose end in a partition of at least mean area: the shortest paths through faces of
 /// the partition to other lines, loose ends or the border, as far as `reach`, unless the way
 /// along the lines is not much longer. A path counts as a leak where it, or it and the gaps that
-/// are shorter, part the partition in two. Each region between lines and paths is flooded once, so
-/// the time is that of one pass over the faces of large partitions plus what lies round loose ends.
-/// Our addition. `curvatures`: those the partitions were found by. Errors: cancelled.
-Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const Curvatures& curvatures,
-                                     const SharpLines& lines, const Partitions& partitions,
-                                     const LeakOptions& options = {}, const Context& context = {});
+/// are shorter, part the partition in two, and where the two sides are not one smooth surface: what
+/// the noise does not tell from one is none. Each region between lines and paths is flooded once,
+/// so the time is that of one pass over the faces of large partitions plus what lies round loose
+/// ends. Our addition. Errors: cancelled.
+Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const SharpLines& lines,
+                                     const Partitions& partitions, const LeakOptions& options = {},
+                                     const Context& context = {});
 
 }  // namespace arris

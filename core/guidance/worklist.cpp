@@ -15,6 +15,7 @@
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
 #include "core/partitions/four_sided_cuts.h"
+#include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
 #include "core/sharp_lines/sharp_lines.h"
 
@@ -26,6 +27,12 @@ namespace {
 constexpr double flat_cost = 4.0;
 /// A walk straight on takes edges down to this share of TV_IH, and turns by 60 degrees at most.
 constexpr double walk_share = 0.5, walk_cosine = 0.5;
+/// By the normal jump a way on is one where it is as sharp as this share of TV_IH in the mean; and
+/// where there is none, a line just stops where it is sharper than this many times TV_IH over its
+/// last mean edges: all others fade out, which is no fault.
+constexpr double least_sharpness = 0.4, abrupt = 1.5, abrupt_edges = 3.0;
+/// And where it arrives, or goes on for this many mean edges.
+constexpr double worth_going = 2.0;
 /// Places looked at from one loose end, the cheapest first.
 constexpr std::size_t most_arrivals = 8;
 
@@ -140,6 +147,7 @@ class Continuations {
     const VertexId last = way.vertices.back();
     way.line = ends_.line_at(last);
     if (way.length > 0.0) sharp /= way.length;
+    way.sharpness = sharp;
     const std::size_t steps = std::min<std::size_t>(3, path.size());
     const Point start = (mesh_.point(way.vertices[steps]) - mesh_.point(end.vertex)).normalized();
     const double straight = (1.0 + end.ahead.dot(start)) / 2.0;
@@ -194,6 +202,23 @@ class Continuations {
   const double reach_;  // mm
 };
 
+/// Whether a line that was found just stops while its jump is still well above TV_IH, or was drawn
+/// by hand.
+bool stops_sharp(const Document& document, const Curvatures& measures, const LooseEnd& end,
+                 double angle) {
+  const Mesh& mesh = *document.mesh;
+  std::vector<VertexId> path = document.lines.find(end.line)->vertices;
+  if (path.front() != end.vertex) std::ranges::reverse(path);
+  double length = 0.0, turn = 0.0;
+  for (const HalfEdgeId h : half_edges_of(mesh, path)) {
+    if (length == 0.0 && document.lines.edges[h >> 1] != Origin::found) return true;
+    length += mesh.edge_length(h >> 1);
+    turn += mesh.edge_length(h >> 1) * std::abs(measures.beta[h >> 1]);
+    if (length > abrupt_edges * mesh.mean_edge_length()) break;
+  }
+  return turn > abrupt * angle * length;
+}
+
 std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOptions& options) {
   const Mesh& mesh = *document.mesh;
   const LineEnds ends(mesh, document.lines);
@@ -206,14 +231,16 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
     item.lines = {end.line};
     items.push_back(std::move(item));
   }
-  keep_largest(items, options.most_per_kind);
-  const double angle = document.find_sharp_lines
-                           ? document.find_sharp_lines->parameters.at("angle").get<double>()
-                           : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk);
+  const Result<LineEvidencePtr> evidence = line_evidence_of(document);
+  const bool by_jump = evidence && *evidence;
+  if (!by_jump) keep_largest(items, options.most_per_kind);
+  const double angle = (document.find_sharp_lines
+                            ? document.find_sharp_lines->parameters.at("angle").get<double>()
+                            : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk)) *
+                       std::numbers::pi / 180.0;
   const CurvaturesPtr measures = line_measures(document);
   const double reach = options.reach * mesh.mean_edge_length();
-  const Continuations continuations(mesh, *measures, document.lines, ends,
-                                    angle * std::numbers::pi / 180.0, reach);
+  const Continuations continuations(mesh, *measures, document.lines, ends, angle, reach);
   parallel_for(
       items.size(),
       [&](std::size_t k) {
@@ -222,13 +249,25 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
             ends.loose(), [&](const LooseEnd& e) { return e.vertex == item.vertices[0]; });
         item.continuations = continuations.from(*end, options.most_continuations);
         item.sentence =
-            "Line " + std::to_string(end->line) + " (" + mm_text(end->length) + ") just stops; ";
+            "Line " + std::to_string(end->line) + " (" + mm_text(end->length) + ") just stops";
+        if (by_jump) {
+          std::erase_if(item.continuations,
+                        [](const Continuation& way) { return way.sharpness < least_sharpness; });
+          if (item.continuations.empty()) {
+            // No sentence: nothing to do.
+            item.sentence =
+                stops_sharp(document, *measures, *end, angle)
+                    ? item.sentence + ", sharp to its end; nothing sharp goes on from there."
+                    : "";
+            return;
+          }
+        }
         if (item.continuations.empty()) {
-          item.sentence += "there is no way on within " + mm_text(reach) + ".";
+          item.sentence += "; there is no way on within " + mm_text(reach) + ".";
           return;
         }
         const Continuation& best = item.continuations.front();
-        item.sentence += "the best way on runs " + mm_text(best.length) +
+        item.sentence += "; the best way on runs " + mm_text(best.length) +
                          (best.line != 0 ? " to line " + std::to_string(best.line)
                           : best.arrives ? std::string(" to the border")
                                          : std::string(" and fades out")) +
@@ -236,6 +275,7 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
         if (best.line != 0 && best.line != end->line) item.lines.push_back(best.line);
       },
       4);
+  std::erase_if(items, [](const WorkItem& item) { return item.sentence.empty(); });
   return items;
 }
 
@@ -245,8 +285,7 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
   leak_options.reach = options.reach;
   leak_options.most = options.most_per_kind;
   const Result<std::vector<Leak>> leaks =
-      find_leaks(*document.mesh, *document.shown_curvatures(), document.lines, document.partitions,
-                 leak_options, context);
+      find_leaks(*document.mesh, document.lines, document.partitions, leak_options, context);
   if (!leaks) return tl::unexpected<Error>(leaks.error());
   const LineEnds ends(*document.mesh, document.lines);
   std::vector<WorkItem> items;
@@ -318,8 +357,9 @@ struct BorderExtent {
   std::vector<VertexId> vertices;
 };
 
-void add_boundary_items(const Document& document, const WorklistOptions& options,
-                        std::vector<WorkItem>& undefined, std::vector<WorkItem>& slivers) {
+Result<void> add_boundary_items(const Document& document, const WorklistOptions& options,
+                                const Context& context, std::vector<WorkItem>& undefined,
+                                std::vector<WorkItem>& slivers) {
   const Mesh& mesh = *document.mesh;
   std::unordered_map<std::uint32_t, BorderExtent> extents;
   for (const BoundaryPtr& derived : *document.boundaries) {
@@ -360,6 +400,20 @@ void add_boundary_items(const Document& document, const WorklistOptions& options
                     mm_text(width) + " wide over " + mm_text(length) + ".";
     slivers.push_back(std::move(item));
   }
+  if (slivers.empty()) return {};
+  // A strip that one surface explains is a fillet or a rim, not what is left of something.
+  Partitions narrow{document.partitions.labels, {}};
+  for (const WorkItem& item : slivers)
+    narrow.partitions.push_back(*std::ranges::lower_bound(document.partitions.partitions,
+                                                          item.partitions[0], {}, &Partition::id));
+  const Result<std::vector<PartitionSurface>> surfaces =
+      fit_partition_surfaces(mesh, document.lines, narrow, context);
+  if (!surfaces) return tl::unexpected<Error>(surfaces.error());
+  std::vector<WorkItem> kept;
+  for (std::size_t k = 0; k < slivers.size(); ++k)
+    if ((*surfaces)[k].surface.type == SurfaceType::free) kept.push_back(std::move(slivers[k]));
+  slivers = std::move(kept);
+  return {};
 }
 
 /// Partitions that no four-sided patch covers, each with the cuts that would mend it.
@@ -450,7 +504,10 @@ Result<std::vector<WorkItem>> worklist(const Document& document, const WorklistO
     unassigned = unassigned_items(document);
     if (context.cancelled()) return cancelled();
     context.report(0.8, "worklist");
-    add_boundary_items(document, options, undefined, slivers);
+    if (const auto done =
+            add_boundary_items(document, options, context.part(0.8, 0.85), undefined, slivers);
+        !done)
+      return tl::unexpected<Error>(done.error());
     many = many_border_items(document, options, context);
     if (context.cancelled()) return cancelled();
   }

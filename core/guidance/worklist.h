@@ -17,11 +17,11 @@ namespace arris {
 /// it spoils the partitions; then what the partitions leave out; then what is merely odd.
 enum class WorkKind : std::uint8_t {
   leak,                ///< A gap through which a front ran (core/guidance/leaks.h).
-  loose_end,           ///< A line just stops inside the scan.
+  loose_end,           ///< A line just stops inside the scan, instead of fading out.
   unassigned_area,     ///< Connected faces of no partition.
   undefined_boundary,  ///< A partition ends, and no other begins.
   many_borders,        ///< A partition with more than four sides, or with a hole.
-  sliver,              ///< A partition narrow compared with its length.
+  sliver,              ///< A partition narrow compared with its length, of no surface.
 };
 
 std::string_view name_of(WorkKind kind);  ///< "leak", "loose_end", ...
@@ -30,6 +30,7 @@ std::string_view name_of(WorkKind kind);  ///< "leak", "loose_end", ...
 struct Continuation {
   std::vector<VertexId> vertices;  ///< From the loose end on.
   double length = 0.0;             ///< mm
+  double sharpness = 0.0;  ///< Mean of how sharp it is against TV_IH, 0 to 1.
   double score = 0.0;      ///< 0 to 1: how sharp, straight and short it is, and what it arrives at.
   std::uint32_t line = 0;  ///< The line it arrives at; 0: the border, or nothing.
   bool arrives = false;    ///< False for a walk that fades out.

@@ -135,10 +135,8 @@ class AreaJoining {
   }
   /// By the kink between them.
   float cost_by_kink(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
-    const float kink = border.sums.kink();
-    float faces = border.sums.length * 1.5F * options_.border.far / mean_face_area / 1.3F;
-    faces = std::min(std::max(faces, 4.0F), 2.0F * std::min(voting_[a], voting_[b]) + 4.0F);
-    float cost = std::sqrt(std::max(0.0F, kink * kink - 6.0F * face_noise_ * face_noise_ / faces));
+    float cost = clear_kink(border.sums, options_.border, face_noise_,
+                            2.0F * std::min(voting_[a], voting_[b]) + 4.0F);
     const float smaller = std::min(area_[a], area_[b]);
     if (smaller < options_.small) cost *= smaller / options_.small;
     return cost / options_.kink;

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/mesh/chains.h"
+#include "core/sharp_lines/watershed.h"
 
 namespace arris {
 
@@ -28,8 +29,9 @@ float explained(const BorderSums::Side& side, float ridge) {
   return 2.0F * x.cwiseProduct(side.right).sum() - (x.transpose() * side.gram * x).trace();
 }
 
-/// Sums one place of a border up.
-void sum_place(const Mesh& mesh, const FaceTable& table, const std::vector<std::uint32_t>& labels,
+/// Sums one place of a border up. `side_of(f)`: 0 or 1 for the faces of the two sides.
+template <class SideOf>
+void sum_place(const Mesh& mesh, const FaceTable& table, const SideOf& side_of,
                const std::vector<std::uint8_t>& skipped, const BorderKinkOptions& options,
                const Chain& chain, std::ptrdiff_t i, FaceWindow& window, BorderSums& sums) {
   const auto n = static_cast<std::ptrdiff_t>(chain.half_edges.size());
@@ -41,9 +43,8 @@ void sum_place(const Mesh& mesh, const FaceTable& table, const std::vector<std::
   };
   sums.length = static_cast<float>(mesh.edge_length(h >> 1) / table.unit);
   FaceId first = mesh.face(h), second = mesh.face(Mesh::opposite(h));
-  const bool swapped = labels[first] > labels[second];
+  const bool swapped = side_of(first) == 1;
   if (swapped) std::swap(first, second);
-  const std::uint32_t low = labels[first], high = labels[second];
   const std::ptrdiff_t range =
       chain.closed ? std::clamp(n / 8, std::ptrdiff_t{1}, smoothing) : smoothing;
   Vector3f middle = Vector3f::Zero();
@@ -53,12 +54,12 @@ void sum_place(const Mesh& mesh, const FaceTable& table, const std::vector<std::
   if (!(tangent.norm() > 1e-6F)) return;
   tangent.normalize();
   const auto& faces = window.grow(std::array{first, second}, middle, 1.05F * options.far,
-                                  [&](FaceId f) { return labels[f] == low || labels[f] == high; });
+                                  [&](FaceId f) { return side_of(f) <= 1; });
   std::array<Vector3f, 2> mean{Vector3f::Zero(), Vector3f::Zero()};
   for (const FaceId f : faces)
     if (!skipped[f]) {
       const float d2 = (table.faces[f].centre - middle).squaredNorm();
-      mean[labels[f] != low] += table.faces[f].area * std::exp(-0.25F * d2) * table.faces[f].normal;
+      mean[side_of(f) == 1] += table.faces[f].area * std::exp(-0.25F * d2) * table.faces[f].normal;
     }
   if (!(mean[0].norm() > 1e-6F) || !(mean[1].norm() > 1e-6F)) return;
   Vector3f up = mean[0].normalized() + mean[1].normalized();
@@ -73,7 +74,7 @@ void sum_place(const Mesh& mesh, const FaceTable& table, const std::vector<std::
     const Vector3f d = table.faces[f].centre - middle;
     const float y = d.dot(along);
     if (std::abs(y) > options.along) continue;
-    const bool beyond = labels[f] != low;
+    const bool beyond = side_of(f) == 1;
     const float t = (d - y * along).norm();
     if (t < options.near || t > options.far) continue;
     Eigen::Vector2f turn(table.faces[f].normal.dot(across), table.faces[f].normal.dot(along));
@@ -146,13 +147,44 @@ BorderPlaces measure_borders(const Mesh& mesh, const FaceTable& table,
       chains.size(),
       [&](std::size_t c) {
         FaceWindow& window = windows.local();
-        for (std::size_t i = 0; i < chains[c].half_edges.size(); ++i)
-          sum_place(mesh, table, labels, skipped, options, chains[c],
-                    static_cast<std::ptrdiff_t>(i), window,
-                    result.places[slot[chains[c].half_edges[i] >> 1]]);
+        for (std::size_t i = 0; i < chains[c].half_edges.size(); ++i) {
+          const HalfEdgeId h = chains[c].half_edges[i];
+          const std::uint32_t a = labels[mesh.face(h)], b = labels[mesh.face(Mesh::opposite(h))];
+          const auto side_of = [&](FaceId f) {
+            return labels[f] == std::min(a, b) ? 0 : labels[f] == std::max(a, b) ? 1 : 2;
+          };
+          sum_place(mesh, table, side_of, skipped, options, chains[c],
+                    static_cast<std::ptrdiff_t>(i), window, result.places[slot[h >> 1]]);
+        }
       },
       4);
   return result;
+}
+
+BorderSums measure_path(const Mesh& mesh, const FaceTable& table,
+                        const std::vector<HalfEdgeId>& path,
+                        const std::function<int(FaceId)>& side_of,
+                        const std::vector<std::uint8_t>& skipped, const BorderKinkOptions& options,
+                        FaceWindow& window) {
+  const Chain chain{path, false};
+  BorderSums all;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const FaceId left = mesh.face(path[i]), right = mesh.face(Mesh::opposite(path[i]));
+    if (left == no_id || right == no_id || side_of(left) + side_of(right) != 1) continue;
+    BorderSums sums;
+    sum_place(mesh, table, side_of, skipped, options, chain, static_cast<std::ptrdiff_t>(i), window,
+              sums);
+    all.add(sums);
+  }
+  return all;
+}
+
+float clear_kink(const BorderSums& sums, const BorderKinkOptions& options, float noise,
+                 float most_faces) {
+  const float kink = sums.kink();
+  const float faces = std::min(
+      std::max(sums.length * 1.5F * options.far / mean_face_area / 1.3F, 4.0F), most_faces);
+  return std::sqrt(std::max(0.0F, kink * kink - 6.0F * noise * noise / faces));
 }
 
 }  // namespace arris

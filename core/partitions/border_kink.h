@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,5 +51,18 @@ BorderPlaces measure_borders(const Mesh& mesh, const FaceTable& table,
                              const std::vector<std::uint32_t>& labels,
                              const std::vector<std::uint8_t>& skipped,
                              const BorderKinkOptions& options);
+
+/// The sums along a path of half-edges between two sides: `side_of(f)` is 0 or 1 for the faces of
+/// the one and the other, 2 elsewhere. Places that do not part the two are passed over.
+BorderSums measure_path(const Mesh& mesh, const FaceTable& table,
+                        const std::vector<HalfEdgeId>& path,
+                        const std::function<int(FaceId)>& side_of,
+                        const std::vector<std::uint8_t>& skipped, const BorderKinkOptions& options,
+                        FaceWindow& window);
+
+/// The kink without what the noise of the normals (degrees) adds to it over so many faces as the
+/// sums read, `most_faces` at most.
+float clear_kink(const BorderSums& sums, const BorderKinkOptions& options, float noise,
+                 float most_faces);
 
 }  // namespace arris

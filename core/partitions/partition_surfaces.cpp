@@ -54,10 +54,11 @@ std::vector<std::vector<Member>> members_of(const Mesh& mesh, const SharpLines& 
   });
   std::vector<std::vector<Member>> members(partitions.partitions.size());
   for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-    if (of_vertex[v] == 0) continue;
+    const auto listed = place.find(of_vertex[v]);
+    if (listed == place.end()) continue;
     bool inner = true;
     mesh.for_ring(v, [&](HalfEdgeId h) { inner = inner && of_vertex[mesh.to(h)] != 0; });
-    members[place.at(of_vertex[v])].push_back({v, inner});
+    members[listed->second].push_back({v, inner});
   }
   return members;
 }

@@ -40,8 +40,7 @@ struct LeakingBox {
         {}, document.next_id);
   }
   std::vector<Leak> leaks(const LeakOptions& options = {}) const {
-    return value_of(find_leaks(*document.mesh, *document.curvatures, document.lines,
-                               document.partitions, options));
+    return value_of(find_leaks(*document.mesh, document.lines, document.partitions, options));
   }
   /// From the lower x to the higher.
   std::vector<Point> points(const std::vector<VertexId>& vertices) const {
@@ -103,22 +102,19 @@ TEST(Leaks, ALineThatEndsInTheMiddleOfNowhereIsNone) {
   document.lines = relink_lines(*document.mesh, *document.curvatures, edges, {}, document.next_id);
   ASSERT_EQ(document.lines.lines.size(), 1u);
   document = applied(document, {"find_partitions", {}});
-  EXPECT_TRUE(value_of(find_leaks(*document.mesh, *document.curvatures, document.lines,
-                                  document.partitions))
-                  .empty());
+  EXPECT_TRUE(value_of(find_leaks(*document.mesh, document.lines, document.partitions)).empty());
 }
 
 TEST(Leaks, NothingToLookAtGivesNone) {
   const Document document = document_of(divided_cube(10.0, 4));
-  EXPECT_TRUE(value_of(find_leaks(*document.mesh, *document.curvatures, {}, {})).empty());
+  EXPECT_TRUE(value_of(find_leaks(*document.mesh, {}, {})).empty());
 }
 
 TEST(Leaks, PartitionsAreReallyPartedWhereTheLeaksAreClosed) {
   Document document = applied(applied(document_of(sample_mould(1.2)), {"find_sharp_lines", {}}),
                               {"find_partitions", {}});
   const Mesh& mesh = *document.mesh;
-  for (const Leak& leak :
-       value_of(find_leaks(mesh, *document.curvatures, document.lines, document.partitions))) {
+  for (const Leak& leak : value_of(find_leaks(mesh, document.lines, document.partitions))) {
     std::vector<bool> closed(mesh.edge_count(), false);
     std::vector<std::vector<VertexId>> paths = leak.others;
     paths.push_back(leak.path);
@@ -160,8 +156,7 @@ TEST(Leaks, AreTheSameOnOneThreadAndOnTwo) {
       applied(document_of(sample_mould(1.2)), {"find_sharp_lines", {}}), {"find_partitions", {}});
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return value_of(
-        find_leaks(*document.mesh, *document.curvatures, document.lines, document.partitions));
+    return value_of(find_leaks(*document.mesh, document.lines, document.partitions));
   };
   const std::vector<Leak> one = run(1), two = run(2);
   ASSERT_EQ(one.size(), two.size());
@@ -177,7 +172,7 @@ TEST(Leaks, CanBeCancelled) {
   const LeakingBox box({{4.0, 6.0}});
   std::stop_source source;
   source.request_stop();
-  const auto leaks = find_leaks(*box.document.mesh, *box.document.curvatures, box.document.lines,
+  const auto leaks = find_leaks(*box.document.mesh, box.document.lines,
                                 box.document.partitions, {}, Context({}, source.get_token()));
   ASSERT_FALSE(leaks);
   EXPECT_TRUE(leaks.error().cancelled);

@@ -158,8 +158,8 @@ Result<Found> surface_areas(const ScanPtr& scan, const AreaIdea& idea) {
   idea.change(options);
   const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, options, {});
   if (!tree) return tl::unexpected<Error>(tree.error());
-  found.labels = tree->by_face(
-      tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)));
+  found.labels =
+      tree->by_face(tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)));
   for (std::uint32_t& label : found.labels) ++label;
   return found;
 }
@@ -172,7 +172,8 @@ constexpr AreaIdea area_ideas[] = {
     {"no joins by surfaces", [](AreaTreeOptions& o) { o.joining.surfaces = false; }},
     {"no joins over kinks", [](AreaTreeOptions& o) { o.joining.kink = 1e-3F; }},
     {"no limit on free areas", [](AreaTreeOptions& o) { o.joining.free_rise = 1e9F; }},
-    {"borders count nothing", [](AreaTreeOptions& o) { o.joining.rise_border = o.joining.free_border = 0.0F; }},
+    {"borders count nothing",
+     [](AreaTreeOptions& o) { o.joining.rise_border = o.joining.free_border = 0.0F; }},
     {"all beside lines vote", [](AreaTreeOptions& o) { o.smallest.band = 0.0F; }},
     {"borders not settled", [](AreaTreeOptions& o) { o.borders.rounds = 0; }},
     {"borders not straight", [](AreaTreeOptions& o) { o.borders.straightenings = 0; }},

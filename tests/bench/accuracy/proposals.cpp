@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/document/document.h"
+#include "tests/bench/accuracy/narrow.h"
 #include "tests/bench/accuracy/samples.h"
 #include "tests/bench/accuracy/turning.h"
 
@@ -46,16 +47,21 @@ ProposalJudge::ProposalJudge(const Part& part, const ProposalOptions& options)
       options_(options),
       mean_edge_(mean_inner_edge(*part.scan->mesh)),
       lines_(true_lines(part, mean_edge_ / pieces_per_edge)),
-      centres_(face_centres(*part.scan->mesh)) {}
+      centres_(face_centres(*part.scan->mesh)),
+      narrow_(narrow_centres(part)) {}
 
 std::optional<bool> ProposalJudge::is_right(const Document& document, const WorkItem& item) const {
   if (part_.truth.patches.empty()) return std::nullopt;
   switch (item.kind) {
     case WorkKind::leak:
+      if (runs_along(narrow_, part_.tolerance, 0.5, document, item.paths)) return std::nullopt;
       return runs_along_lines(document, item.paths) && parts_patches(document, item.paths);
-    case WorkKind::loose_end:
+    case WorkKind::loose_end: {
       if (item.continuations.empty()) return std::nullopt;
-      return runs_along_lines(document, {item.continuations.front().vertices});
+      const Paths way{item.continuations.front().vertices};
+      if (runs_along(narrow_, part_.tolerance, 0.5, document, way)) return std::nullopt;
+      return runs_along_lines(document, way);
+    }
     case WorkKind::unassigned_area:
     case WorkKind::undefined_boundary:
     case WorkKind::many_borders:
@@ -82,6 +88,12 @@ Result<std::vector<ProposalCount>> ProposalJudge::count(const Document& document
 }
 
 bool ProposalJudge::runs_along_lines(const Document& document, const Paths& paths) const {
+  return runs_along(lines_, options_.reach * mean_edge_, options_.share, document, paths);
+}
+
+bool ProposalJudge::runs_along(const KdTree& places, double reach, double share,
+                               const Document& document, const Paths& paths) const {
+  if (places.empty()) return false;
   LengthSamples samples;
   for (const std::vector<VertexId>& path : paths) {
     Polyline line;
@@ -91,10 +103,9 @@ bool ProposalJudge::runs_along_lines(const Document& document, const Paths& path
   double length = 0.0, near = 0.0;
   for (std::size_t k = 0; k < samples.points.size(); ++k) {
     length += samples.lengths[k];
-    if (lines_.has_within(samples.points[k], options_.reach * mean_edge_))
-      near += samples.lengths[k];
+    if (places.has_within(samples.points[k], reach)) near += samples.lengths[k];
   }
-  return length > 0.0 && near >= options_.share * length;
+  return length > 0.0 && near >= share * length;
 }
 
 bool ProposalJudge::parts_patches(const Document& document, const Paths& paths) const {

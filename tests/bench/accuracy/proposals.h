@@ -33,7 +33,8 @@ class ProposalJudge {
   explicit ProposalJudge(const Part& part, const ProposalOptions& options = {});
 
   /// Whether what the item proposes is right; absent for an item that proposes nothing of which the
-  /// truth tells, and on a part whose patches are not known.
+  /// truth tells, on a part whose patches are not known, and beside surfaces too narrow for the
+  /// scan to show, where lines count neither way.
   ///
   /// leak: all its paths are lines, and part two patches (see runs_along_lines() and
   /// parts_patches()). loose_end: its best continuation is a line.
@@ -46,6 +47,9 @@ class ProposalJudge {
  private:
   using Paths = std::vector<std::vector<VertexId>>;  // on the document's mesh
 
+  /// Whether the paths lie within `reach` of the places for `share` of their length.
+  bool runs_along(const KdTree& places, double reach, double share, const Document& document,
+                  const Paths& paths) const;
   /// Whether the paths lie on true curves, of any demand, or on borders of two true patches for
   /// enough of their length.
   bool runs_along_lines(const Document& document, const Paths& paths) const;
@@ -63,6 +67,7 @@ class ProposalJudge {
   const double mean_edge_;  // mm
   KdTree lines_;            // points of true curves and of borders between true patches
   KdTree centres_;          // of the faces of the scan
+  KdTree narrow_;           // centres of the faces on surfaces too narrow to be seen
 };
 
 }  // namespace arris::accuracy
