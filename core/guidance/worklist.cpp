@@ -416,9 +416,8 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
   return {};
 }
 
-/// Partitions that no four-sided patch covers, each with the cuts that would mend it.
-std::vector<WorkItem> many_border_items(const Document& document, const WorklistOptions& options,
-                                        const Context& context) {
+/// Partitions that no four-sided patch covers.
+std::vector<WorkItem> many_border_items(const Document& document, const WorklistOptions& options) {
   const Mesh& mesh = *document.mesh;
   const std::vector<PartitionPtr>& partitions = document.partitions.partitions;
   const std::vector<Outline> outlines = outlines_of(mesh, document.lines, document.partitions);
@@ -438,41 +437,10 @@ std::vector<WorkItem> many_border_items(const Document& document, const Worklist
     for (const BorderLoop& loop : outline.loops)
       for (const HalfEdgeId h : loop.half_edges) vertices.push_back(mesh.from(h));
     item.vertices = extremes(mesh, vertices);
-    item.sentence = "Partition " + std::to_string(partitions[k]->id) + " has " + outline.text();
+    item.sentence = "Partition " + std::to_string(partitions[k]->id) + " has " + outline.text() +
+                    (partitions[k]->locked ? "; it is locked." : ".");
     items.push_back(std::move(item));
   }
-  keep_largest(items, options.most_per_kind);
-  parallel_for(
-      items.size(),
-      [&](std::size_t k) {
-        WorkItem& item = items[k];
-        const Partition& partition = *document.partitions.find(item.partitions[0]);
-        if (context.cancelled()) return;
-        if (partition.locked) {
-          item.sentence += "; it is locked.";
-          return;
-        }
-        const FourSidedPlan plan = four_sided_cuts(mesh, *document.curvatures, document.lines,
-                                                   document.partitions, partition);
-        double length = 0.0;
-        for (const FourSidedCut& cut : plan.cuts) {
-          item.paths.insert(item.paths.end(), cut.strokes.begin(), cut.strokes.end());
-          length += cut.length;
-        }
-        const std::size_t cuts = item.paths.size();
-        if (cuts > 0)
-          item.sentence +=
-              "; " +
-              (cuts == 1 ? std::string("a cut of ") + mm_text(length)
-                         : std::to_string(cuts) + " cuts of " + mm_text(length) + " in all") +
-              (plan.obstacle.empty() ? " would leave no piece with more than four"
-                                     : " would leave fewer");
-        if (!plan.obstacle.empty())
-          item.sentence +=
-              (cuts > 0 ? ", but not four: " : "; no cut is proposed: ") + plan.obstacle;
-        item.sentence += ".";
-      },
-      1);
   return items;
 }
 
@@ -480,7 +448,7 @@ std::vector<WorkItem> many_border_items(const Document& document, const Worklist
 
 std::string_view name_of(WorkKind kind) {
   static constexpr std::array<std::string_view, 6> names{
-      "leak", "loose_end", "unassigned_area", "undefined_boundary", "many_borders", "sliver"};
+      "leak", "loose_end", "unassigned_area", "undefined_boundary", "sliver", "many_borders"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -508,15 +476,44 @@ Result<std::vector<WorkItem>> worklist(const Document& document, const WorklistO
             add_boundary_items(document, options, context.part(0.8, 0.85), undefined, slivers);
         !done)
       return tl::unexpected<Error>(done.error());
-    many = many_border_items(document, options, context);
-    if (context.cancelled()) return cancelled();
+    many = many_border_items(document, options);
   }
-  for (std::vector<WorkItem>* items : {&leaks, &loose, &unassigned, &undefined, &many, &slivers}) {
+  for (std::vector<WorkItem>* items : {&leaks, &loose, &unassigned, &undefined, &slivers, &many}) {
     keep_largest(*items, options.most_per_kind);
     std::move(items->begin(), items->end(), std::back_inserter(result));
   }
   context.report(1.0, "worklist");
   return result;
+}
+
+bool is_left(const WorkItem& item) { return item.kind != WorkKind::many_borders; }
+
+Result<WorkItem> with_cuts(const Document& document, WorkItem item, const Context& context) {
+  if (item.kind != WorkKind::many_borders) return item;
+  const Partition& partition = *document.partitions.find(item.partitions[0]);
+  if (partition.locked) return item;
+  const Result<FourSidedPlan> plan =
+      four_sided_cuts(*document.mesh, *document.curvatures, document.lines, document.partitions,
+                      partition, {}, context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  double length = 0.0;
+  for (const FourSidedCut& cut : plan->cuts) {
+    item.paths.insert(item.paths.end(), cut.strokes.begin(), cut.strokes.end());
+    length += cut.length;
+  }
+  item.sentence.pop_back();  // the full stop
+  const std::size_t cuts = item.paths.size();
+  if (cuts > 0)
+    item.sentence +=
+        "; " +
+        (cuts == 1 ? std::string("a cut of ") + mm_text(length)
+                   : std::to_string(cuts) + " cuts of " + mm_text(length) + " in all") +
+        (plan->obstacle.empty() ? " would leave no piece with more than four"
+                                : " would leave fewer");
+  if (!plan->obstacle.empty())
+    item.sentence += (cuts > 0 ? ", but not four: " : "; no cut is proposed: ") + plan->obstacle;
+  item.sentence += ".";
+  return item;
 }
 
 }  // namespace arris

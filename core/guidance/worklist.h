@@ -20,8 +20,9 @@ enum class WorkKind : std::uint8_t {
   loose_end,           ///< A line just stops inside the scan, instead of fading out.
   unassigned_area,     ///< Connected faces of no partition.
   undefined_boundary,  ///< A partition ends, and no other begins.
-  many_borders,        ///< A partition with more than four sides, or with a hole.
   sliver,              ///< A partition narrow compared with its length, of no surface.
+  many_borders,        ///< A partition with more than four sides, or with a hole: no fault, but
+                       ///< what has to be cut where patches are to be four-sided.
 };
 
 std::string_view name_of(WorkKind kind);  ///< "leak", "loose_end", ...
@@ -30,7 +31,7 @@ std::string_view name_of(WorkKind kind);  ///< "leak", "loose_end", ...
 struct Continuation {
   std::vector<VertexId> vertices;  ///< From the loose end on.
   double length = 0.0;             ///< mm
-  double sharpness = 0.0;  ///< Mean of how sharp it is against TV_IH, 0 to 1.
+  double sharpness = 0.0;          ///< Mean of how sharp it is against TV_IH, 0 to 1.
   double score = 0.0;      ///< 0 to 1: how sharp, straight and short it is, and what it arrives at.
   std::uint32_t line = 0;  ///< The line it arrives at; 0: the border, or nothing.
   bool arrives = false;    ///< False for a walk that fades out.
@@ -44,7 +45,7 @@ struct WorkItem {
   double size = 0.0;
   std::vector<VertexId> vertices;  ///< To zoom to: the paths, or what spans the area.
   std::vector<std::uint32_t> lines, partitions;
-  /// leak: the gaps, to be closed together. many_borders: the cuts that split_to_four_sides makes.
+  /// leak: the gaps, to be closed together. many_borders: none; see with_cuts().
   std::vector<std::vector<VertexId>> paths;
   FaceId face = no_id;                      ///< unassigned_area: its lowest face.
   std::vector<Continuation> continuations;  ///< loose_end: the best first.
@@ -59,10 +60,17 @@ struct WorklistOptions {
   double sliver_width = 3.0;  ///< and its width below this many mean edge lengths.
 };
 
+/// Whether an item is something that is left to mend.
+bool is_left(const WorkItem& item);
+
 /// What is left to do on a document: by kind, within a kind by decreasing size, ties by the lowest
 /// vertex. Steps that were not run leave out what depends on them. Errors: cancelled.
 Result<std::vector<WorkItem>> worklist(const Document& document,
                                        const WorklistOptions& options = {},
                                        const Context& context = {});
+
+/// An item of kind many_borders with the cuts that split_to_four_sides would make as its paths, and
+/// with what they would leave in its sentence. Any other as it is. Errors: cancelled.
+Result<WorkItem> with_cuts(const Document& document, WorkItem item, const Context& context = {});
 
 }  // namespace arris

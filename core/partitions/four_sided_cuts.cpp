@@ -29,8 +29,9 @@ using Node = std::uint32_t;
 class InsideGraph {
  public:
   InsideGraph(const PartitionGround& ground, const Curvatures& curvatures, std::uint32_t id,
-              const std::vector<FaceId>& faces, const Outline& outline, double curvature_weight)
-      : mesh_(ground.mesh) {
+              const std::vector<FaceId>& faces, const Outline& outline, double curvature_weight,
+              const Context& context)
+      : mesh_(ground.mesh), context_(context) {
     for (const BorderLoop& loop : outline.loops) {
       loop_start_.push_back(static_cast<Node>(vertices_.size()));
       for (const HalfEdgeId h : loop.half_edges) vertices_.push_back(mesh_.from(h));
@@ -203,7 +204,8 @@ class InsideGraph {
       reached_[k] = {0, 0.0, no_id, false};
       queue.emplace(ahead(k), k);
     }
-    while (!queue.empty()) {
+    for (std::size_t visited = 0; !queue.empty(); ++visited) {
+      if (visited % 4096 == 0 && context_.cancelled()) return;
       const Node k = queue.top().second;
       queue.pop();
       if (reached_[k].done) continue;
@@ -227,6 +229,7 @@ class InsideGraph {
   }
 
   const Mesh& mesh_;
+  const Context& context_;
   std::vector<VertexId> vertices_;  // of the nodes; those of the border come first
   std::vector<Node> loop_start_;
   Node border_nodes_ = 0;
@@ -522,11 +525,13 @@ std::vector<HoleCuts> hole_cuts(const Mesh& mesh, InsideGraph& graph, const Outl
 class Planner {
  public:
   Planner(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
-          const Partitions& partitions, const Partition& partition, const FourSidedOptions& options)
+          const Partitions& partitions, const Partition& partition, const FourSidedOptions& options,
+          const Context& context)
       : mesh_(mesh),
         curvatures_(curvatures),
         lines_(lines),
         options_(options),
+        context_(context),
         now_(partitions),
         next_id_(now_.partitions.back()->id + 1) {
     faces_[partition.id] = faces_of(mesh, partitions, partition);
@@ -534,9 +539,10 @@ class Planner {
     open_.push_back(partition.id);
   }
 
-  FourSidedPlan plan() {
+  Result<FourSidedPlan> plan() {
     do {
       while (!open_.empty()) {
+        if (context_.cancelled()) return cancelled();
         const std::uint32_t id = open_.back();
         open_.pop_back();
         if (!outlines_.at(id).is_four_sided() && !cut(id)) given_up_.insert(id);
@@ -547,6 +553,7 @@ class Planner {
         if (!own.is_four_sided() && !given_up_.contains(id)) open_.push_back(id);
       }
     } while (!open_.empty());
+    if (context_.cancelled()) return cancelled();
     for (const std::uint32_t id : given_up_)
       if (const Outline& own = outlines_.at(id); !own.is_four_sided() && plan_.obstacle.empty())
         plan_.obstacle = why_not(own);
@@ -581,7 +588,7 @@ class Planner {
   bool cut(std::uint32_t id) {
     if (outlines_.at(id).loops.empty() || outlines_.at(id).handles > 0) return false;
     const Outline own = outlines_.at(id);
-    InsideGraph graph(ground(), curvatures_, id, faces_.at(id), own, options_.curvature);
+    InsideGraph graph(ground(), curvatures_, id, faces_.at(id), own, options_.curvature, context_);
     if (own.loops.size() > 1) {
       for (const HoleCuts& pair : hole_cuts(mesh_, graph, own, options_))
         if (try_cut(joined(graph, own.loops[1], pair))) return true;
@@ -700,6 +707,7 @@ class Planner {
   const Curvatures& curvatures_;
   const SharpLines& lines_;
   const FourSidedOptions& options_;
+  const Context& context_;
   Partitions now_;
   std::uint32_t next_id_;
   std::map<std::uint32_t, Outline> outlines_;           // of the pieces
@@ -722,10 +730,11 @@ std::uint32_t partition_along(const Mesh& mesh, const Partitions& partitions,
   return label == partitions.label(faces[1]) ? label : 0;
 }
 
-FourSidedPlan four_sided_cuts(const Mesh& mesh, const Curvatures& curvatures,
-                              const SharpLines& lines, const Partitions& partitions,
-                              const Partition& partition, const FourSidedOptions& options) {
-  return Planner(mesh, curvatures, lines, partitions, partition, options).plan();
+Result<FourSidedPlan> four_sided_cuts(const Mesh& mesh, const Curvatures& curvatures,
+                                      const SharpLines& lines, const Partitions& partitions,
+                                      const Partition& partition, const FourSidedOptions& options,
+                                      const Context& context) {
+  return Planner(mesh, curvatures, lines, partitions, partition, options, context).plan();
 }
 
 }  // namespace arris

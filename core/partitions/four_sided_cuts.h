@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/context.h"
+#include "core/base/result.h"
 #include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
 #include "core/partitions/partitions.h"
@@ -57,10 +59,12 @@ struct FourSidedPlan {
 /// A cut is kept only if counting the sides of what it leaves says that it is better than before.
 /// Equal costs are broken by the order of corners and vertices; costs are whole numbers of a
 /// millionth of a mean edge, so that neither the unit nor the order of a sum decides. Worked out
-/// at a cost that follows the partition.
-FourSidedPlan four_sided_cuts(const Mesh& mesh, const Curvatures& curvatures,
-                              const SharpLines& lines, const Partitions& partitions,
-                              const Partition& partition, const FourSidedOptions& options = {});
+/// at a cost that follows the partition. Errors: cancelled.
+Result<FourSidedPlan> four_sided_cuts(const Mesh& mesh, const Curvatures& curvatures,
+                                      const SharpLines& lines, const Partitions& partitions,
+                                      const Partition& partition,
+                                      const FourSidedOptions& options = {},
+                                      const Context& context = {});
 
 /// The partition that a path of four_sided_cuts() or split_partition lies in; 0: none.
 std::uint32_t partition_along(const Mesh& mesh, const Partitions& partitions,

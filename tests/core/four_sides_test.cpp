@@ -88,8 +88,8 @@ Outline outline_at(const Document& document, const Point& point) {
                     *document.partitions.find(document.partitions.label(nearest)));
 }
 FourSidedPlan plan_of(const Document& document, std::uint32_t id) {
-  return four_sided_cuts(*document.mesh, *document.curvatures, document.lines, document.partitions,
-                         *document.partitions.find(id));
+  return value_of(four_sided_cuts(*document.mesh, *document.curvatures, document.lines,
+                                  document.partitions, *document.partitions.find(id)));
 }
 /// Of the only partition with more than four sides or a hole.
 FourSidedPlan only_plan(const Document& document) {
@@ -635,8 +635,11 @@ TEST(WorklistOfSides, CarriesTheCutsAsGhosts) {
   std::vector<WorkItem> items = value_of(worklist(document));
   std::erase_if(items, [](const WorkItem& item) { return item.kind != WorkKind::many_borders; });
   ASSERT_EQ(items.size(), 2u);
-  for (const WorkItem& item : items) {
+  for (WorkItem& item : items) {
     EXPECT_EQ(item.size, 6.0);
+    EXPECT_FALSE(is_left(item)) << "nothing is wrong with a patch of six sides";
+    EXPECT_TRUE(item.paths.empty()) << "worked out for the one that is looked at";
+    item = value_of(with_cuts(document, item));
     const FourSidedPlan plan = plan_of(document, item.partitions.at(0));
     ASSERT_EQ(plan.cuts.size(), 1u);
     EXPECT_EQ(item.paths, plan.cuts[0].strokes);
@@ -648,11 +651,23 @@ TEST(WorklistOfSides, CarriesTheCutsAsGhosts) {
   EXPECT_TRUE(value_of(worklist(done)).empty());
 }
 
+TEST(WorklistOfSides, StopsWhenAskedTo) {
+  const Document document = divided_at_edges(document_of(l_prism()));
+  std::stop_source stop;
+  stop.request_stop();
+  const Context stopped(nullptr, stop.get_token());
+  for (const WorkItem& item : value_of(worklist(document)))
+    EXPECT_FALSE(with_cuts(document, item, stopped));
+  const Result<Document> split = apply(document, {"split_to_four_sides", json::object()}, stopped);
+  ASSERT_FALSE(split);
+  EXPECT_TRUE(split.error().message == cancelled().value().message) << split.error().message;
+}
+
 TEST(WorklistOfSides, SaysWhatCannotBeCutAndWhatIsLocked) {
   const Document tube = labelled(cylinder_wall(5.0, 12.0, 40, 14), [](const Point&) { return 1; });
   const auto sentence = [](const Document& document) {
     for (const WorkItem& item : value_of(worklist(document)))
-      if (item.kind == WorkKind::many_borders) return item.sentence;
+      if (item.kind == WorkKind::many_borders) return value_of(with_cuts(document, item)).sentence;
     return std::string();
   };
   EXPECT_NE(sentence(tube).find("1 hole; 2 cuts of"), std::string::npos) << sentence(tube);

@@ -117,6 +117,36 @@ TEST_F(GuidanceTest, WhatIsDismissedStaysOffTheList) {
       patience));
 }
 
+TEST_F(MainWindowTest, CutsForFourSidesAreWorkedOutForWhatIsLookedAtAndAccepted) {
+  open_sample();
+  run_both();
+  window->findChild<QDockWidget*>("worklist")->raise();
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  const auto& items = window->worklist().items();
+  EXPECT_LE(std::ranges::count_if(items, is_left), 5) << "the first picture a newcomer sees";
+  const auto many =
+      std::ranges::find_if(items, [](const WorkItem& item) { return !is_left(item); });
+  ASSERT_NE(many, items.end());
+  EXPECT_TRUE(many->paths.empty());
+  const std::string sentence = many->sentence;
+  const std::uint32_t partition = many->partitions.at(0);
+  const std::size_t found = document().partitions.partitions.size();
+  const auto row = static_cast<int>(many - items.begin());
+  // Up from the first row to the one before it: the last ones are those to be cut.
+  while (panel->current_row() != row) window->worklist().previous();
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return items[static_cast<std::size_t>(row)].sentence != sentence; }, patience));
+  EXPECT_FALSE(items[static_cast<std::size_t>(row)].paths.empty());
+  const std::uint32_t before = rows();
+  window->worklist().accept();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
+  EXPECT_GT(document().partitions.partitions.size(), found);
+  const auto& operation = window->session().history().entries().back().operation;
+  EXPECT_EQ(operation.name, "split_to_four_sides");
+  EXPECT_EQ(operation.parameters.at("partitions"), nlohmann::json({partition}));
+}
+
 TEST_F(GuidanceTest, NothingIsWorkedOutWhileNobodyLooks) {
   make_loose_end();
   QTest::qWait(1000);

@@ -104,6 +104,12 @@ void WorklistPanel::set_rows(std::vector<WorkRow> rows) {
   setting_ = false;
 }
 
+void WorklistPanel::set_text(int row, const QString& text) {
+  setting_ = true;
+  if (QTreeWidgetItem* item = item_of(row)) item->setText(0, text);
+  setting_ = false;
+}
+
 void WorklistPanel::set_stale(bool stale) {
   const bool had_focus = tree_->hasFocus() || stale_focus_;
   stale_focus_ = stale && had_focus;  // a disabled list loses it

@@ -30,6 +30,8 @@ class WorklistPanel : public QWidget {
 
   /// Rows are numbered as they come. None is current then.
   void set_rows(std::vector<WorkRow> rows);
+  /// Another sentence for a row.
+  void set_text(int row, const QString& text);
   /// The rows are those of a moment ago: they stay to be read until the new ones are there.
   void set_stale(bool stale);
   /// How far the work is; and why the list is empty, where it is.

@@ -26,7 +26,7 @@ QString title_of(WorkKind kind) {
     case WorkKind::undefined_boundary:
       return QObject::tr("Undefined boundaries");
     case WorkKind::many_borders:
-      return QObject::tr("More than four sides");
+      return QObject::tr("To be cut for four-sided patches");
     case WorkKind::sliver:
       return QObject::tr("Slivers");
   }
@@ -72,7 +72,8 @@ WorklistPresenter::WorklistPresenter(Session* session, MeshView* view, ElementsP
       view_(view),
       elements_(elements),
       panel_(panel),
-      work_(new LatestWork(this)) {
+      work_(new LatestWork(this)),
+      cuts_(new LatestWork(this)) {
   settle_.setSingleShot(true);
   connect(&settle_, &QTimer::timeout, this, &WorklistPresenter::look);
   connect(session_, &Session::changed, this, &WorklistPresenter::outdate);
@@ -115,6 +116,7 @@ void WorklistPresenter::set_shown(bool shown) {
   if (!shown_) {
     settle_.stop();
     work_->cancel();
+    cuts_->cancel();
     clear_marks();
   } else if (!current_) {
     look();
@@ -124,6 +126,8 @@ void WorklistPresenter::set_shown(bool shown) {
 
 void WorklistPresenter::outdate(bool other_mesh) {
   work_->cancel();
+  cuts_->cancel();
+  planned_.clear();
   clear_marks();
   if (other_mesh) {  // its vertices are others
     dismissed_.clear();
@@ -194,11 +198,15 @@ void WorklistPresenter::refresh_summary() {
   } else if (!document.find_sharp_lines && !document.find_partitions) {
     empty = tr("What is left shows here once sharp lines or partitions were found.");
   } else {
-    const QString left =
-        !current_ ? tr("looking for what is left …")
-        : items_.size() == 1
-            ? tr("1 thing left")
-            : tr("%1 things left").arg(count_text(static_cast<qint64>(items_.size())));
+    const auto count = std::ranges::count_if(items_, is_left);
+    const qint64 more = static_cast<qint64>(items_.size()) - count;
+    QString left = !current_    ? tr("looking for what is left …")
+                   : count == 0 ? tr("nothing left")
+                   : count == 1 ? tr("1 thing left")
+                                : tr("%1 things left").arg(count_text(count));
+    if (current_ && more > 0)
+      left += more == 1 ? tr("; 1 partition has more than four sides")
+                        : tr("; %1 partitions have more than four sides").arg(count_text(more));
     summary =
         tr("%1 % of the area assigned, %2")
             .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)), left);
@@ -257,13 +265,35 @@ void WorklistPresenter::show(int row, int choice, bool zoom) {
   view_->set_picked_points(std::move(rings));
   marked_ = true;
   if (zoom) show_place(*view_, *document.mesh, place);
+  plan_cuts(row);
   refresh_buttons();
+}
+
+void WorklistPresenter::plan_cuts(int row) {
+  cuts_->cancel();
+  const WorkItem& item = items_[static_cast<std::size_t>(row)];
+  if (item.kind != WorkKind::many_borders || planned_.contains(key_of(item))) return;
+  cuts_->start([document = session_->current().document,
+                item](const Context& context) { return with_cuts(document, item, context); },
+               [this, row](Result<WorkItem> planned) {
+                 if (!planned || row >= static_cast<int>(items_.size()) ||
+                     key_of(items_[static_cast<std::size_t>(row)]) != key_of(*planned))
+                   return;
+                 planned_.insert(key_of(*planned));
+                 panel_->set_text(row, QString::fromStdString(planned->sentence));
+                 items_[static_cast<std::size_t>(row)] = std::move(*planned);
+                 if (panel_->current_row() == row) show(row, 0, false);
+               });
 }
 
 bool WorklistPresenter::can_accept() const {
   const int row = panel_->current_row();
-  return shown_ && current_ && row >= 0 && !session_->busy() && !session_->is_previewing() &&
-         !ways_of(items_[static_cast<std::size_t>(row)]).empty();
+  if (!shown_ || !current_ || row < 0 || session_->busy() || session_->is_previewing())
+    return false;
+  const WorkItem& item = items_[static_cast<std::size_t>(row)];
+  // Cuts that are still being worked out are accepted unseen.
+  return !ways_of(item).empty() ||
+         (item.kind == WorkKind::many_borders && !planned_.contains(key_of(item)));
 }
 
 void WorklistPresenter::accept() {

@@ -53,6 +53,7 @@ class WorklistPresenter : public QObject {
   void refresh_summary();
   void step(int by);
   void show(int row, int choice, bool zoom);
+  void plan_cuts(int row);
   void clear_marks();
   void refresh_buttons();
   bool can_accept() const;
@@ -63,6 +64,7 @@ class WorklistPresenter : public QObject {
   ElementsPresenter* elements_;
   WorklistPanel* panel_;
   LatestWork* work_;
+  LatestWork* cuts_;
   QTimer settle_;
   QAction* accept_action_ = nullptr;
   QAction* bring_back_ = nullptr;
@@ -75,6 +77,7 @@ class WorklistPresenter : public QObject {
       leaks_;  // of when the partitions were last up to date, but for those closed
   std::optional<Step> leaks_lines_;  // as the lines were found then
   std::set<std::string> dismissed_;
+  std::set<std::string> planned_;  // items whose cuts were worked out
 };
 
 }  // namespace arris::ui

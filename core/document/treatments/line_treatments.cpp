@@ -305,8 +305,8 @@ std::string recompute_gist(const json& parameters) {
 }
 
 template <const Treatment& treatment>
-Result<Document> apply(const Document& document, const json& parameters, const Context&) {
-  return apply_treatment(treatment.name, document, parameters);
+Result<Document> apply(const Document& document, const json& parameters, const Context& context) {
+  return apply_treatment(treatment.name, document, parameters, context);
 }
 
 }  // namespace

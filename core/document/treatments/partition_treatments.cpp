@@ -411,14 +411,16 @@ struct CutPartition {
   std::vector<VertexId> ends;  ///< Of the cuts.
 };
 
-CutPartition cut_to_four_sides(Ground& ground, std::uint32_t id) {
+Result<CutPartition> cut_to_four_sides(Ground& ground, std::uint32_t id) {
   CutPartition result;
   result.pieces.push_back(id);
   const std::uint32_t first_new = ground.next_id;
-  const FourSidedPlan plan = four_sided_cuts(ground.mesh, ground.curvatures, ground.lines,
-                                             ground.partitions, *ground.partitions.find(id));
-  result.obstacle = plan.obstacle;
-  for (const FourSidedCut& cut : plan.cuts) {
+  const Result<FourSidedPlan> plan =
+      four_sided_cuts(ground.mesh, ground.curvatures, ground.lines, ground.partitions,
+                      *ground.partitions.find(id), {}, ground.context);
+  if (!plan) return tl::unexpected<Error>(plan.error());
+  result.obstacle = plan->obstacle;
+  for (const FourSidedCut& cut : plan->cuts) {
     const Partition& piece =
         *ground.partitions.find(partition_along(ground.mesh, ground.partitions, cut.path));
     const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), piece, cut.path);
@@ -464,14 +466,19 @@ Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Roun
   std::map<std::uint32_t, std::string> why;  // of pieces of partitions that do not come out whole
   std::set<std::uint32_t> all = ids, settled;
   bool any = false;
+  std::size_t done = 0;
   for (int k = 0; k < rounds && !ids.empty(); ++k) {
     std::vector<VertexId> ends;
     for (const std::uint32_t id : ids) {
-      const CutPartition cut = cut_to_four_sides(ground, id);
-      all.insert(cut.pieces.begin(), cut.pieces.end());
-      ends.insert(ends.end(), cut.ends.begin(), cut.ends.end());
-      if (cut.ends.empty()) settled.insert(id);
-      for (const std::uint32_t piece : cut.pieces) why[piece] = cut.obstacle;
+      if (k == 0)
+        ground.context.report(static_cast<double>(done++) / static_cast<double>(ids.size()),
+                              "four sides");
+      const Result<CutPartition> cut = cut_to_four_sides(ground, id);
+      if (!cut) return tl::unexpected<Error>(cut.error());
+      all.insert(cut->pieces.begin(), cut->pieces.end());
+      ends.insert(ends.end(), cut->ends.begin(), cut->ends.end());
+      if (cut->ends.empty()) settled.insert(id);
+      for (const std::uint32_t piece : cut->pieces) why[piece] = cut->obstacle;
     }
     any = any || !ends.empty();
     ids = to_cut_at(ground, ends);
@@ -577,8 +584,8 @@ Result<Outcome> smooth(Ground& ground, const json& parameters, Round round) {
 }
 
 template <const Treatment& treatment>
-Result<Document> apply(const Document& document, const json& parameters, const Context&) {
-  return apply_treatment(treatment.name, document, parameters);
+Result<Document> apply(const Document& document, const json& parameters, const Context& context) {
+  return apply_treatment(treatment.name, document, parameters, context);
 }
 
 }  // namespace

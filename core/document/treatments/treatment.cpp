@@ -93,9 +93,10 @@ const Treatment* find_treatment(std::string_view operation) {
 }
 
 Result<Document> apply_treatment(std::string_view name, const Document& document,
-                                 const nlohmann::json& parameters) {
+                                 const nlohmann::json& parameters, const Context& context) {
   const Treatment& treatment = *find_treatment(name);
   Ground ground = ground_of(document);
+  ground.context = context;
   const Result<Outcome> done = treatment.perform(ground, parameters, Round::first);
   if (!done) return tl::unexpected<Error>(done.error());
   Document result = document;

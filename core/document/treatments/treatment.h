@@ -25,6 +25,7 @@ struct Ground {
   std::uint32_t next_id = 1;
   Criterion criterion = Criterion::kabs;
   LineEvidencePtr evidence;  ///< By which lines are found; null: the curvatures, by the walk.
+  Context context{};         ///< Of the work: asked by treatments that may take long.
 
   /// How sharp edges and vertices are, by the method of the lines.
   const Curvatures& measures() const { return evidence ? *evidence->measures : curvatures; }
@@ -59,7 +60,7 @@ const Treatment* find_treatment(std::string_view operation);
 
 /// Performs it for the first time, and keeps it as a correction.
 Result<Document> apply_treatment(std::string_view name, const Document& document,
-                                 const nlohmann::json& parameters);
+                                 const nlohmann::json& parameters, const Context& context);
 
 /// Does the corrections of a document again, in order, on lines (or partitions) found anew.
 std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections, Ground& ground,

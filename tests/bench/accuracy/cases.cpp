@@ -103,6 +103,23 @@ Result<Part> make_scanned(const Shape& shape, const Sampling& sampling, double n
   return part;
 }
 
+/// A scan of the machined part with noise in mm, and spikes.
+Result<Part> make_machined_scan(double sigma) {
+  constexpr double edge = 0.6, spike = 0.6;  // mm
+  constexpr double spikes = 0.001;           // share of the vertices
+  const CleanPart clean = machined_part().make(edge);
+  testing::Triangles noisy{with_noise(clean.mesh, sigma, 1), clean.mesh.triangles};
+  Random random(2);
+  const std::vector<Point> spiked = with_noise(noisy, spike, 3);
+  for (std::size_t v = 0; v < noisy.points.size(); ++v)
+    if (random.uniform() < spikes) noisy.points[v] = spiked[v];
+  Result<Part> part = part_of(clean, noisy.points);
+  if (!part) return part;
+  part->edge = mean_inner_edge(*part->scan->mesh);
+  part->tolerance = lines_reach * part->edge;
+  return part;
+}
+
 Result<Part> make_clean(const CadMesh& cad) {
   const CleanPart clean = cad.make();
   Result<Part> part = part_of(clean, clean.mesh.points);
@@ -129,6 +146,10 @@ std::vector<Case> generated_cases() {
                            return make_scanned(shape, sampling, noise, name, *memo);
                          }});
       }
+  for (const double sigma : {0.03, 0.06})  // mm
+    cases.push_back({"machined-s" + number_text(sigma, 2) + "-spikes",
+                     {"generated, 16 faces with spikes"},
+                     [sigma] { return make_machined_scan(sigma); }});
   for (const CadMesh& cad : cad_meshes())
     cases.push_back({cad.name, {"generated, clean CAD"}, [cad] { return make_clean(cad); }});
   return cases;

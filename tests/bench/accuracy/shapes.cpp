@@ -167,6 +167,49 @@ CleanPart make_torus(double edge) {
                  {major + minor, major + minor, minor}, edge, {});
 }
 
+Solid moved(Solid solid, const Point& by) {
+  return [solid = std::move(solid), by](const Point& p) { return solid(p - by); };
+}
+
+std::vector<TrueCurve> moved(std::vector<TrueCurve> curves, const Point& by) {
+  for (TrueCurve& curve : curves)
+    for (Point& p : curve.points) p += by;
+  return curves;
+}
+
+/// A plate of 60 mm with a boss, a dome on it, a post and a frustum: 16 faces of four kinds.
+CleanPart make_machined(double edge) {
+  const Point plate(60.0, 44.0, 10.0), boss_low(6.0, 6.0, 0.0), boss_high(26.0, 38.0, 18.0);
+  const Point post(43.0, 13.0, 0.0), frustum(43.0, 31.0, 0.0), dome(16.0, 22.0, 14.0);
+  constexpr double top = 20.0, post_radius = 8.0, dome_radius = 7.0;
+  constexpr double foot = 12.0, tip = 36.0;  // of the cone that the frustum is of, from z = 0
+  const auto radius_at = [&](double z) { return foot * (1.0 - z / tip); };
+  const Solid solid = united(
+      {block(Point::Zero(), plate, block_faces), block(boss_low, boss_high, {7, 8, 9, 10, 5, 11}),
+       moved(common({cylinder(post_radius, 12), half_space(Point::Zero(), -Point::UnitZ(), 5),
+                     half_space({0.0, 0.0, top}, Point::UnitZ(), 13)}),
+             post),
+       moved(common({cone(foot, tip, 14), half_space(Point::Zero(), -Point::UnitZ(), 5),
+                     half_space({0.0, 0.0, top}, Point::UnitZ(), 15)}),
+             frustum),
+       common({ball(dome, dome_radius, 16), half_space({0.0, 0.0, 9.0}, -Point::UnitZ(), 5)})});
+  std::vector<TrueCurve> curves = block_edges(Point::Zero(), plate);
+  const auto add = [&](std::vector<TrueCurve> more) {
+    std::ranges::move(more, std::back_inserter(curves));
+  };
+  add(block_edges({boss_low.x(), boss_low.y(), plate.z()}, boss_high));
+  add(moved({circle(post_radius, plate.z(), 90.0), circle(post_radius, top, 90.0)}, post));
+  const double lean = std::atan2(foot, tip) / degree;
+  add(moved({circle(radius_at(plate.z()), plate.z(), 90.0 - lean),
+             circle(radius_at(top), top, 90.0 - lean)},
+            frustum));
+  const double rise = boss_high.z() - dome.z();
+  add(moved({circle(std::sqrt(dome_radius * dome_radius - rise * rise), boss_high.z(),
+                    std::acos(rise / dome_radius) / degree)},
+            {dome.x(), dome.y(), 0.0}));
+  return scanned(solid, Point::Zero(), {plate.x(), plate.y(), 21.0}, edge, std::move(curves));
+}
+
 /// An open sheet of 40 mm by 40 mm.
 testing::Triangles sheet(const std::function<double(const Vector2d&)>& height, double edge) {
   constexpr double half = 20.0;           // mm
@@ -303,6 +346,8 @@ CleanPart make_sample(double edge) {
 }
 
 }  // namespace
+
+Shape machined_part() { return {"machined", make_machined}; }
 
 std::vector<Shape> scanned_shapes() {
   std::vector<Shape> shapes{{"box", make_box}};

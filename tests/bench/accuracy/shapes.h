@@ -27,6 +27,9 @@ struct Shape {
 /// Shapes as a scanner would see them: no vertex on an edge.
 std::vector<Shape> scanned_shapes();
 
+/// One of 60 mm with 16 faces: planes, cylinder, cone and sphere.
+Shape machined_part();
+
 /// Clean tessellations as a CAD system would write them, every true edge an edge of the mesh.
 struct CadMesh {
   std::string name;
