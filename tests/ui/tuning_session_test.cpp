@@ -303,5 +303,88 @@ TEST_F(TuningSession, EscapeLeavesEverythingAsItWas) {
   EXPECT_TRUE(window->elements().selected_lines().contains(open));
 }
 
+TEST_F(TuningSession, ANumberThatIsTypedAndEnteredIsTheOneThatIsTaken) {
+  open_sample();
+  run_both();
+  ASSERT_FALSE(document().partitions.partitions.empty());
+  const std::uint32_t before = rows();
+  press(Qt::Key_M, Qt::ShiftModifier);
+  ASSERT_TRUE(bar().isVisible());
+  auto* box = bar().findChild<NumberBox*>();
+  box->setFocus();
+  box->selectAll();
+  std::vector<std::uint32_t> faces;
+  for (const PartitionPtr& partition : document().partitions.partitions)
+    faces.push_back(partition->faces);
+  std::ranges::sort(faces);
+  const std::uint32_t limit = faces[2] + 1;  // three go
+  QTest::keyClicks(box, QString::number(limit));
+  QTest::keyClick(box, Qt::Key_Return);
+  ASSERT_TRUE(settles([&] { return rows() == before + 1; }));
+  const Operation& operation = window->session().history().entries().back().operation;
+  EXPECT_EQ(operation.name, "remove_small_partitions");
+  EXPECT_EQ(operation.parameters.at("faces"), limit);
+  EXPECT_EQ(document().partitions.partitions.size(), faces.size() - 3);
+  EXPECT_FALSE(bar().isVisible());
+}
+
+TEST_F(TuningSession, LettingGoOfTheSliderShowsAndAClickOnThePartTakes) {
+  open_sample();
+  run_both();
+  const std::uint32_t before = rows();
+  press(Qt::Key_M, Qt::ShiftModifier);
+  ASSERT_TRUE(bar().isVisible());
+  auto* slider = bar().findChild<QSlider*>();
+  slider->setSliderDown(true);
+  slider->setValue(slider->maximum() / 2);
+  slider->setSliderDown(false);
+  ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  EXPECT_EQ(rows(), before) << "shown, not taken";
+  EXPECT_TRUE(bar().isVisible());
+  const double value = bar().value();
+  EXPECT_EQ(value, std::round(value)) << "faces are counted";
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, window->view().rect().center());
+  ASSERT_TRUE(settles([&] { return rows() == before + 1; }));
+  EXPECT_EQ(window->session().history().entries().back().operation.parameters.at("faces"), value);
+  EXPECT_FALSE(bar().isVisible());
+}
+
+TEST_F(TuningSession, KeysThatGoElsewhereCloseThePreviewFirst) {
+  open_sample();
+  run_both();
+  const std::string current = hash_of(document());
+  const auto start = [&] {
+    press(Qt::Key_M, Qt::ShiftModifier);
+    ASSERT_TRUE(bar().isVisible());
+    type_number(500.0);
+    ASSERT_TRUE(settles([&] { return window->session().is_previewing(); }));
+  };
+  start();
+  press(Qt::Key_F7);
+  EXPECT_FALSE(bar().isVisible());
+  EXPECT_FALSE(window->session().is_previewing());
+  EXPECT_EQ(hash_of(document()), current);
+  start();
+  const std::uint32_t head = window->session().history().head();
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(bar().isVisible());
+  ASSERT_TRUE(settles([&] { return idle() && window->session().history().head() == head - 1; }));
+  EXPECT_FALSE(bar().isVisible()) << "nor does it come back over another document";
+}
+
+TEST_F(TuningSession, EachOfManyUndosIsDone) {
+  open_sample();
+  for (int k = 0; k < 12; ++k) run({"find_sharp_lines", {{"angle", 20.0 + k}}});
+  const std::uint32_t head = window->session().history().head();
+  ASSERT_EQ(head, 13u);
+  for (int k = 0; k < 10; ++k) press(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(settles([&] { return idle() && window->session().history().head() == head - 10; }))
+      << window->session().history().head();
+  for (int k = 0; k < 4; ++k) press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(settles([&] { return idle() && window->session().history().head() == head - 7; }))
+      << window->session().history().head();
+}
+
 }  // namespace
 }  // namespace arris::ui

@@ -50,7 +50,6 @@ TreatmentBar::TreatmentBar(QWidget* parent) : QToolBar(parent) {
   connect(slider_, &QSlider::valueChanged, this, [this] {
     if (!showing_) take_slider();
   });
-  connect(slider_, &QSlider::sliderReleased, this, &TreatmentBar::accepted);
   connect(box_, &NumberBox::valueChanged, this, [this](double value) {
     if (showing_) return;
     set_slider(value);
@@ -72,7 +71,9 @@ void TreatmentBar::show_treatment(const QString& name, const Number* number, con
   if (number) {
     number_ = *number;
     const double span = number_.logarithmic ? number_.low : number_.high - number_.low;
-    box_->setDecimals(std::clamp(static_cast<int>(std::ceil(-std::log10(span * 1e-3))), 0, 12));
+    box_->setDecimals(
+        number_.whole ? 0
+                      : std::clamp(static_cast<int>(std::ceil(-std::log10(span * 1e-3))), 0, 12));
     box_->setRange(number_.low, number_.high);
     box_->setSuffix(number_.unit);
     box_->setValue(number_.value);
@@ -96,6 +97,10 @@ void TreatmentBar::set_result(const QString& text, bool refused) {
 
 void TreatmentBar::set_acceptable(bool acceptable) { accept_->setEnabled(acceptable); }
 
+void TreatmentBar::take_typed() {
+  if (box_action_->isVisible()) box_->interpretText();
+}
+
 double TreatmentBar::value() const { return box_->value(); }
 
 int TreatmentBar::choice() const { return choice_->currentIndex(); }
@@ -106,7 +111,7 @@ void TreatmentBar::take_slider() {
                            ? number_.low * std::pow(number_.high / number_.low, share)
                            : number_.low + (number_.high - number_.low) * share;
   showing_ = true;
-  box_->setValue(round_significant(value, 4));
+  box_->setValue(number_.whole ? std::round(value) : round_significant(value, 3));
   showing_ = false;
   emit changed();
 }

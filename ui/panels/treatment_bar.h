@@ -12,7 +12,7 @@ namespace arris::ui {
 class NumberBox;
 
 /// The treatment that goes on: its name, its own threshold as a slider, a choice, what it would
-/// give, Accept and Cancel. Letting go of the slider accepts.
+/// give, Accept and Cancel. What is dragged or typed is shown; Accept or Enter takes it.
 class TreatmentBar : public QToolBar {
   Q_OBJECT
  public:
@@ -22,6 +22,7 @@ class TreatmentBar : public QToolBar {
     double low = 0.0, high = 1.0, value = 0.5;
     bool logarithmic = false;  ///< The slider runs over the logarithm; `low` is above 0.
     QString unit, tooltip;
+    bool whole = false;  ///< Of whole numbers.
   };
   struct Choice {
     QStringList texts;
@@ -33,6 +34,8 @@ class TreatmentBar : public QToolBar {
   void set_result(const QString& text, bool refused);
   void set_acceptable(bool acceptable);
 
+  /// Reads what is typed and was not taken yet, with changed() where it is another value.
+  void take_typed();
   double value() const;
   int choice() const;
 

@@ -757,8 +757,10 @@ void MainWindow::refresh_actions() {
                   FieldPresenter::why_not_available());
   set_available(run_all_, part && !busy && steps_->anything_out_of_date(),
                 part && !busy ? tr("Everything is up to date.") : wait);
-  set_available(undo_, false, wait);
-  set_available(redo_, false, wait);
+  if (!session_->travelling()) {  // else more of them are taken, and done one after the other
+    set_available(undo_, false, wait);
+    set_available(redo_, false, wait);
+  }
   if (busy) return;  // the history belongs to the work that runs
   const History& history = session_->history();
   const auto name = [&](std::uint32_t sequence) {

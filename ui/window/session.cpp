@@ -98,7 +98,13 @@ void Session::show(Snapshot snapshot) {
 
 void Session::finish_work() {
   busy_ = false;
+  travelling_ = false;
+  const int steps = std::exchange(steps_to_go_, 0);
   emit busy_changed(false);
+  if (steps != 0 && !busy_) {
+    steps < 0 ? undo() : redo();
+    if (travelling_) steps_to_go_ = steps < 0 ? steps + 1 : steps - 1;
+  }
   if (wanted_preview_) start_preview();
 }
 
@@ -316,6 +322,7 @@ void Session::travel(std::uint32_t sequence) {
   if (busy_ || sequence == history_.head()) return;
   cancel_preview();
   busy_ = true;
+  travelling_ = true;
   stop_ = std::stop_source();
   emit busy_changed(true);
   // The history is the worker's until it answers; usually that is at once.
@@ -363,10 +370,12 @@ bool Session::name_version(std::uint32_t sequence, const QString& name) {
 }
 
 void Session::undo() {
+  if (travelling_) --steps_to_go_;
   if (!busy_ && history_.can_undo()) travel(history_.entries()[history_.head() - 1].parent);
 }
 
 void Session::redo() {
+  if (travelling_) ++steps_to_go_;
   if (busy_ || !history_.can_redo()) return;
   const std::vector<std::uint32_t> rows = history_.line_of_travel();
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -377,6 +386,7 @@ void Session::redo() {
 
 void Session::cancel() {
   queue_.clear();
+  steps_to_go_ = 0;
   stop_.request_stop();
 }
 
@@ -402,7 +412,7 @@ void Session::start_preview() {
         emit changed(before != snapshot->document.mesh);
       } else if (round == preview_round_ && !wanted_preview_) {
         const QString why = QString::fromStdString(performed->error().message);
-        cancel_preview();
+        drop_preview();
         emit preview_refused(why);
       }
       if (wanted_preview_ && !busy_) start_preview();
@@ -441,6 +451,12 @@ void Session::commit_preview(const Operation& given) {
 }
 
 void Session::cancel_preview() {
+  const bool any = wanted_preview_ || preview_running_ || previewed_;
+  drop_preview();
+  if (any) emit preview_cancelled();
+}
+
+void Session::drop_preview() {
   wanted_preview_.reset();
   preview_result_.reset();
   ++preview_round_;

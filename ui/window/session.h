@@ -51,6 +51,9 @@ class Session : public QObject {
   void set_applies_corrections(bool applies) { applies_corrections_ = applies; }
 
   bool busy() const { return busy_; }
+  /// Whether the work is going to another row of the history: undo() and redo() are taken then, and
+  /// done one after the other.
+  bool travelling() const { return travelling_; }
   /// Opens a scan, or replays a session (*.jsonl), in a history of its own. The open part stays
   /// until the new one is there.
   void open(const QString& path);
@@ -97,6 +100,8 @@ class Session : public QObject {
   void opened();
   void busy_changed(bool busy);
   void progress(double fraction, const QString& what);
+  /// The preview was taken back by something else than its commit.
+  void preview_cancelled();
   /// There is no preview: the operation would fail, and why.
   void preview_refused(const QString& why);
   /// A version was named, or lost its name.
@@ -112,6 +117,7 @@ class Session : public QObject {
   void finish_work();
   void run_next();
   void start_preview();
+  void drop_preview();
   void open_scan(const QString& path, std::function<Result<void>()> make);
   void open_journal(const QString& path, bool go_on);
   /// From here on every edit is on disk before its result is shown.
@@ -134,6 +140,8 @@ class Session : public QObject {
 
   QThreadPool pool_;  // one thread: work goes one after the other
   bool busy_ = false;
+  bool travelling_ = false;
+  int steps_to_go_ = 0;  // asked for while travelling: back where negative
   std::stop_source stop_;
   std::vector<Operation> queue_;  // still to run
 

@@ -27,11 +27,20 @@ TreatmentsPresenter::TreatmentsPresenter(Session* session, MeshView* view,
   connect(cancel_key_, &QShortcut::activated, this, &TreatmentsPresenter::stop);
   connect(bar_, &TreatmentBar::changed, this, &TreatmentsPresenter::preview);
   connect(bar_, &TreatmentBar::accepted, this, &TreatmentsPresenter::accept);
+  // A click on the part takes what is shown.
+  connect(view_, &MeshView::clicked, this, [this] {
+    if (running_ && session_->is_previewing()) accept();
+  });
   connect(bar_, &TreatmentBar::cancelled, this, &TreatmentsPresenter::stop);
 
-  connect(session_, &Session::changed, this, [this] {
+  connect(session_, &Session::changed, this, [this](bool other_mesh) {
     if (running_ && session_->is_previewing()) show_result();
+    if (other_mesh && !session_->is_previewing()) stop();  // its points are of the mesh before
     refresh();
+  });
+  // Undo, F5, F7 and others close the bar: it never stands over what it was not made for.
+  connect(session_, &Session::preview_cancelled, this, [this] {
+    if (running_) stop();
   });
   connect(session_, &Session::busy_changed, this, &TreatmentsPresenter::refresh);
   connect(session_, &Session::preview_refused, this, [this](const QString& why) {
@@ -341,10 +350,10 @@ TreatmentBar::Number TreatmentsPresenter::angle_number(double value) const {
   constexpr double low = 1.0, high = 90.0;
   return {low,
           high,
-          std::clamp(value, low, high),
+          std::clamp(std::round(value), low, high),
           false,
           "°",
-          tr("Exterior angle an edge must have. Drag: the lines follow; letting go accepts.")};
+          tr("Exterior angle an edge must have. Drag or type: the lines follow; Enter accepts.")};
 }
 
 TreatmentBar::Number TreatmentsPresenter::curvature_number(double value) const {
@@ -358,10 +367,10 @@ TreatmentBar::Number TreatmentsPresenter::curvature_number(double value) const {
   const double low = bound * 1e-3, high = bound * 1e3;
   return {low,
           high,
-          std::clamp(value > 0.0 ? value : bound, low, high),
+          std::clamp(round_significant(value > 0.0 ? value : bound, 2), low, high),
           true,
           "",
-          tr("Kmax: the largest value of the criterion. Drag: the partition follows; letting go "
+          tr("Kmax: the largest value of the criterion. Drag or type: the partition follows; Enter "
              "accepts.")};
 }
 
@@ -387,6 +396,7 @@ void TreatmentsPresenter::preview() {
 
 void TreatmentsPresenter::accept() {
   if (!running_ || session_->busy()) return;
+  bar_->take_typed();
   const Operation operation = running_();
   running_ = nullptr;
   session_->commit_preview(operation);
@@ -645,7 +655,8 @@ void TreatmentsPresenter::remove_small() {
                          {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
       },
       TreatmentBar::Number{low, high, usual, true, tr(" faces"),
-                           tr("Partitions with fewer faces go; letting go accepts.")});
+                           tr("Partitions with fewer faces go. Drag or type; Enter accepts."),
+                           true});
 }
 
 }  // namespace arris::ui

@@ -222,6 +222,7 @@ void WorklistPresenter::refresh_summary() {
 
 void WorklistPresenter::step(int by) {
   if (session_->current().document.empty()) return;
+  session_->cancel_preview();
   if (!shown_ || !current_) {
     go_to_ = std::max(go_to_, 0);
     emit wanted();
