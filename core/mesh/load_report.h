@@ -22,8 +22,8 @@ struct JoinedVertices {
 };
 
 /// What a file held and what was done so that a half-edge mesh can hold it. Faces are polygon
-/// numbers in the file, vertices are vertex ids (index in the file, after vertices on one place were
-/// joined), both from 0.
+/// numbers in the file, vertices are vertex ids (index in the file, after vertices on one place
+/// were joined), both from 0.
 struct LoadReport {
   std::string file;
   std::string format;
@@ -53,7 +53,8 @@ struct LoadReport {
   std::uint64_t components = 0;
   std::int64_t euler_number = 0;  ///< V - E + F without isolated vertices.
 
-  /// Vertices that the mesh had before copies were added: copy k has the id original_vertices() + k.
+  /// Vertices that the mesh had before copies were added: copy k has the id original_vertices() +
+  /// k.
   std::uint64_t original_vertices() const {
     return file_vertices - (joined.kept_apart ? 0 : joined.coincident) - joined.near;
   }

@@ -16,7 +16,7 @@ struct PolygonFile {
   std::string format;
   std::string unit;                ///< Of lengths, as the file names it: "millimeter"; 3MF only.
   std::vector<std::string> notes;  ///< What is odd about the file, a sentence each.
-  std::vector<Point> points;  ///< STL: welded where coordinates are equal.
+  std::vector<Point> points;       ///< STL: welded where coordinates are equal.
   std::vector<std::uint64_t>
       starts;                        ///< Polygon k is corners[starts[k]] .. corners[starts[k+1]-1].
   std::vector<VertexId> corners;     ///< Indices into points; each is in range.
