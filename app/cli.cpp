@@ -147,7 +147,21 @@ nlohmann::json summary_of(const History& history) {
   return summary;
 }
 
-/// lines.obj, boundaries.obj, scan_partitions.ply, operations.jsonl and summary.json.
+constexpr const char* result_names[] = {"lines.obj", "boundaries.obj", "scan_partitions.ply",
+                                        "operations.jsonl", "summary.json"};
+
+/// Whether write_results() could write there now: asked before the work, which may take minutes.
+Result<void> check_results(const std::string& folder) {
+  if (const auto ready = check_folder_writable(folder); !ready) return ready;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) return {};
+  for (const char* name : result_names)
+    if (const auto ready = check_writable((std::filesystem::path(folder) / name).string()); !ready)
+      return ready;
+  return {};
+}
+
+/// The result_names.
 Result<void> write_results(const std::string& folder, const History& history,
                            nlohmann::json summary) {
   std::error_code code;
@@ -177,10 +191,9 @@ void print_outcome(const std::string& folder, const nlohmann::json& summary) {
             << " % of that four-sided) written to " << folder << "\n";
 }
 
-int info(const std::string& scan, bool as_json) {
+int info(const std::string& scan, bool weld, bool as_json) {
   Run run;
-  if (const auto opened = run.step({"open", {{"file", scan}}}); !opened)
-    return complain(opened.error());
+  if (const auto opened = run.step(open_file(scan, weld)); !opened) return complain(opened.error());
   const Document& document = run.history.current();
   const LoadReport& report = document.scan->report;
   const Mesh& mesh = *document.mesh;
@@ -198,7 +211,8 @@ int info(const std::string& scan, bool as_json) {
     return 0;
   }
   std::cout << scan << ": " << report.format << ", " << report.file_faces << " faces, "
-            << report.file_vertices << " vertices\n"
+            << report.file_vertices << " vertices"
+            << (report.unit.empty() ? "" : ", in " + report.unit) << "\n"
             << "mesh: " << report.faces << " triangles, " << report.vertices << " vertices, "
             << report.components << (report.components == 1 ? " component, " : " components, ")
             << report.border_edges << " border edges in " << report.border_loops
@@ -216,10 +230,10 @@ int info(const std::string& scan, bool as_json) {
   return 0;
 }
 
-int curvature(const std::string& scan, const std::string& output) {
+int curvature(const std::string& scan, bool weld, const std::string& output) {
+  if (const auto ready = check_writable(output); !ready) return complain(ready.error());
   Run run;
-  if (const auto opened = run.step({"open", {{"file", scan}}}); !opened)
-    return complain(opened.error());
+  if (const auto opened = run.step(open_file(scan, weld)); !opened) return complain(opened.error());
   if (const auto written = write_curvature_ply(output, run.history.current()); !written)
     return complain(written.error());
   return 0;
@@ -227,6 +241,7 @@ int curvature(const std::string& scan, const std::string& output) {
 
 /// From one scan to its partitions.
 struct Segmentation {
+  bool weld = true;
   Flow flow = Flow::scan;
   bool swap = false;  // costs more of the weak lines than it mends of the noise
   int smoothing_passes = 0;
@@ -236,7 +251,8 @@ struct Segmentation {
 };
 
 int segment(const std::string& scan, const std::string& folder, const Segmentation& wanted) {
-  std::vector<Operation> operations{{"open", {{"file", scan}}}};
+  if (const auto ready = check_results(folder); !ready) return complain(ready.error());
+  std::vector<Operation> operations{open_file(scan, wanted.weld)};
   for (Operation& operation : operations_of(wanted.flow)) {
     if (operation.name == "simplify") operation.parameters = wanted.simplification;
     if (operation.name == "find_sharp_lines") {
@@ -261,11 +277,11 @@ int segment(const std::string& scan, const std::string& folder, const Segmentati
   return 0;
 }
 
-int simplify_scan(const std::string& scan, const std::string& output,
+int simplify_scan(const std::string& scan, bool weld, const std::string& output,
                   const nlohmann::json& parameters) {
+  if (const auto ready = check_writable(output); !ready) return complain(ready.error());
   Run run;
-  for (const Operation& operation :
-       {Operation{"open", {{"file", scan}}}, Operation{"simplify", parameters}})
+  for (const Operation& operation : {open_file(scan, weld), Operation{"simplify", parameters}})
     if (const auto done = run.step(operation); !done) return complain(done.error());
   const Document& document = run.history.current();
   // Vertices that went are not written; the ids of the scan are in the journal, not in a PLY.
@@ -310,6 +326,7 @@ Result<std::uint32_t> row_of(const History& history, const std::string& name,
 
 int replay_file(const std::string& operations, const std::string& scan, const std::string& version,
                 const std::string& folder) {
+  if (const auto ready = check_results(folder); !ready) return complain(ready.error());
   const auto start = std::chrono::steady_clock::now();
   Result<Replay> done = replay_loudly(operations, scan);
   if (!done) return complain(done.error());
@@ -426,12 +443,13 @@ int main(int argc, char** argv) {
   std::string scan, output, operations;
   bool as_json = false;
   CLI::App* info_command = app.add_subcommand("info", "What a scan holds and what was mended");
-  info_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  info_command->add_option("SCAN", scan, "STL, PLY, OBJ, OFF (also as .gz) or 3MF")->required();
   info_command->add_flag("--json", as_json, "The whole load report as JSON");
 
   CLI::App* curvature_command =
       app.add_subcommand("curvature", "Write K H Kabs IK IH IKabs as vertex properties of a PLY");
-  curvature_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  curvature_command->add_option("SCAN", scan, "STL, PLY, OBJ, OFF (also as .gz) or 3MF")
+      ->required();
   curvature_command->add_option("-o,--output", output, "The PLY to write")->required();
 
   CLI::App* simplify_command =
@@ -439,7 +457,7 @@ int main(int argc, char** argv) {
   double error_zone = 0.0, max_edge = 0.0;
   int target = 0;
   std::string cost;
-  simplify_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  simplify_command->add_option("SCAN", scan, "STL, PLY, OBJ, OFF (also as .gz) or 3MF")->required();
   simplify_command->add_option("-o,--output", output, "The PLY to write")->required();
   CLI::Option* cost_option =
       simplify_command->add_option("--cost", cost, "How stars are triangulated: flat, angle, area")
@@ -455,7 +473,7 @@ int main(int argc, char** argv) {
   std::uint32_t min_faces = 0, fill_holes = 0;
   std::string criterion;
   std::vector<std::string> intervals;
-  segment_command->add_option("SCAN", scan, "STL, PLY, OBJ or OFF")->required();
+  segment_command->add_option("SCAN", scan, "STL, PLY, OBJ, OFF (also as .gz) or 3MF")->required();
   segment_command->add_option("-o,--output", output, "The folder for the results")->required();
   CLI::Option* angle_option =
       segment_command
@@ -536,6 +554,12 @@ int main(int argc, char** argv) {
                    "Passes of curvature smoothing before finding partitions (0)")
       ->check(CLI::Range(0, 100));
 
+  bool no_weld = false;
+  for (CLI::App* command : {info_command, curvature_command, simplify_command, segment_command})
+    command->add_flag("--no-weld", no_weld,
+                      "Vertices that lie on one place stay apart, as the file has them (not the "
+                      "corners of STL)");
+
   CLI::App* replay_command = app.add_subcommand("replay", "Run a journal or list of operations");
   replay_command->add_option("OPERATIONS", operations, "A file of operations, one JSON a line")
       ->required();
@@ -603,9 +627,11 @@ int main(int argc, char** argv) {
   if (*cost_option) simplification["cost"] = cost;
   if (*target_option) simplification["target_vertices"] = target;
 
-  if (*info_command) return info(scan, as_json);
-  if (*curvature_command) return curvature(scan, output);
-  if (*simplify_command) return simplify_scan(scan, output, simplification);
+  const bool weld = !no_weld;
+  segmentation.weld = weld;
+  if (*info_command) return info(scan, weld, as_json);
+  if (*curvature_command) return curvature(scan, weld, output);
+  if (*simplify_command) return simplify_scan(scan, weld, output, simplification);
   if (*segment_command) return segment(scan, output, segmentation);
   if (*replay_command) return replay_file(operations, other_scan, at, output);
   if (*compare_command) return compare_versions(operations, versions, as_json);

@@ -176,8 +176,8 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
         return fail(where + moved.error().message);
     }
     if (operation->name == "open" && !options.scan.empty()) {
-      operation->parameters["file"] = options.scan;
-      operation->parameters.erase("hash");
+      for (const char* key : {"file", "file_bytes", "hash"}) operation->parameters.erase(key);
+      operation->parameters.update(open_file(options.scan).parameters);
     }
     const double step = 1.0 / static_cast<double>(lines.size());
     const Context part =

@@ -48,6 +48,11 @@ struct OperationKind {
   nlohmann::json (*upgrade)(int version, nlohmann::json parameters) = nullptr;
 };
 
+/// The operation that opens a mesh file. JSON is UTF-8 and file names are any bytes: a name that is
+/// not UTF-8 is given as "file_bytes", hexadecimal, beside a "file" that one can read. `weld` as in
+/// ScanOptions.
+Operation open_file(const std::string& path, bool weld = true);
+
 /// All operations, by name.
 std::span<const OperationKind> operation_table();
 const OperationKind* find_operation(std::string_view name);

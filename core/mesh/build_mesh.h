@@ -19,12 +19,13 @@ struct BuiltMesh {
 /// `report` (whose counts it fills in; file, format, hash, bytes and welded corners are the
 /// caller's).
 ///
-/// In this order: polygons are cut into triangles (planar fan from the corner that gives no flipped
-/// triangle, else from the first corner); faces with non-finite points, repeated vertices, or the
-/// vertices of an earlier face are left out; faces are turned so that neighbours agree, the
-/// minority of each component; edges with more than two faces, or that cannot be oriented, are cut
+/// In this order: polygons are cut into triangles (cut_polygon(); a corner named twice in a row is
+/// one); faces with non-finite points, fewer than three different corners, or the vertices of an
+/// earlier face are left out; edges with more than two faces are paired into bodies where each pair
+/// encloses a wedge of its own; faces are turned so that neighbours agree, the minority of each
+/// component; other edges with more than two faces, and those that cannot be oriented, are cut
 /// open; vertices with more than one fan are split, the first fan keeps the vertex, the others get
-/// copies at the end of the vertex list (same position); what still does not fit is left out.
+/// copies at the end of the vertex list (same position).
 ///
 /// The ids of existing vertices never change. No face changes places with another. Whole components
 /// are never turned: see LoadReport::looks_inside_out. Errors: no face is left, too many of them.

@@ -12,8 +12,11 @@ namespace arris {
 
 /// A mesh file as it stands: points and polygons in the order of the file, nothing mended.
 struct PolygonFile {
-  std::string format;         ///< "STL (binary)", "STL (ASCII)", "PLY", "OBJ", "OFF".
-  std::vector<Point> points;  ///< STL: welded where coordinates are equal.
+  /// "STL (binary)", "STL (ASCII)", "PLY", "OBJ", "OFF", "3MF"; of a compressed file with ", gzip".
+  std::string format;
+  std::string unit;                ///< Of lengths, as the file names it: "millimeter"; 3MF only.
+  std::vector<std::string> notes;  ///< What is odd about the file, a sentence each.
+  std::vector<Point> points;       ///< STL: welded where coordinates are equal.
   std::vector<std::uint64_t>
       starts;                        ///< Polygon k is corners[starts[k]] .. corners[starts[k+1]-1].
   std::vector<VertexId> corners;     ///< Indices into points; each is in range.
@@ -24,13 +27,16 @@ struct PolygonFile {
   std::size_t polygon_count() const { return starts.empty() ? 0 : starts.size() - 1; }
 };
 
-/// Reads STL (binary or ASCII), PLY (ASCII, little or big endian), OBJ or OFF (plain, COFF, NOFF,
-/// ...). The content decides, the name's ending only where the content cannot.
+/// Reads STL (binary or ASCII), PLY (ASCII, little or big endian), OBJ, OFF (plain, COFF, NOFF,
+/// ...) or 3MF, the first four also compressed by gzip. The content decides, the name's ending only
+/// where the content cannot. Where programs write otherwise than the format says, but what is meant
+/// is beyond doubt, the file is read and `notes` says so.
 ///
 /// Errors, one sentence each with the path and the line or element: no such file, a directory, an
-/// empty file, an unknown format, a truncated file, an absurd count (checked against the file's
-/// size before anything is allocated), an index out of range, no faces at all, more than 2^31
-/// elements. NaN and infinite coordinates are read as they are; build_mesh() deals with them.
+/// empty file, an unknown format (named where it is a known one), a truncated file, an absurd count
+/// (checked against the file's size before anything is allocated), an index out of range, no faces
+/// at all, more than 2^31 elements, a compressed file that grows more than 200 times. NaN and
+/// infinite coordinates are read as they are; build_mesh() deals with them.
 Result<PolygonFile> read_polygon_file(const std::string& path, const Context& context = {});
 
 }  // namespace arris

@@ -35,16 +35,15 @@ Result<void> read_obj(const FileBytes& file, PolygonFile& out, const Context& co
       Point point;
       for (int axis = 0; axis < 3; ++axis) {
         const std::string_view number = text.word_in_line();
-        const std::optional<double> value = parse_number(number);
+        const std::optional<double> value = parse_listed_number(number);
         if (!value)
           return fail_at_line(file, text.line(),
                               "vertex " + std::to_string(out.points.size()) +
-                                  " needs three coordinates" +
-                                  (number.empty() ? "." : ", found " + quoted(number) + "."));
+                                  " needs three coordinates, " + found_instead(number));
         point[axis] = *value;
       }
       out.points.push_back(point);
-    } else if (word == "f") {
+    } else if (word == "f" || word == "fo") {  // "fo" is the old word for it
       for (std::string_view corner = text.word_in_line(); !corner.empty();
            corner = text.word_in_line()) {
         const std::optional<std::int64_t> number = vertex_number(corner);

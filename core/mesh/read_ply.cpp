@@ -64,6 +64,8 @@ const Scalar* find_scalar(std::string_view name) {
   return nullptr;
 }
 
+constexpr std::string_view strips_name = "tristrips";
+
 struct Property {
   std::string name;
   const Scalar* scalar = nullptr;
@@ -196,6 +198,7 @@ class Body {
     for (const Element& element : header_.elements) {
       if (element.properties.empty()) continue;
       const bool vertices = element.name == "vertex", faces = element.name == "face";
+      const bool strips = element.name == strips_name;
       std::array<std::size_t, 3> axes{};
       std::size_t list = element.properties.size();
       if (vertices) {
@@ -207,6 +210,7 @@ class Body {
         out_.starts.reserve(element.count + 1);
         out_.corners.reserve(std::min<std::uint64_t>(3 * element.count, source_.room()));
       }
+      if (strips) list = face_list(element);
       if (!vertices && !faces && !element.has_lists() && source_.skip_all(element)) continue;
       for (std::uint64_t i = 0; i < element.count; ++i) {
         if (is_pause(i)) {
@@ -222,7 +226,11 @@ class Body {
                                                                                 : 2]);
           else if (!property.count)
             ok = source_.skip(*property.scalar);
-          else if (const Result<void> done = read_list(property, element, i, faces && k == list);
+          else if (const Result<void> done = read_list(property, element, i,
+                                                       k != list ? List::other
+                                                       : faces   ? List::corners
+                                                       : strips  ? List::strips
+                                                                 : List::other);
                    !done)
             return done;
           if (!ok) return source_.fail(element, i);
@@ -239,24 +247,52 @@ class Body {
   }
 
  private:
+  enum class List { other, corners, strips };
+
   Result<void> read_list(const Property& property, const Element& element, std::uint64_t i,
-                         bool corners) {
+                         List use) {
     std::int64_t length = 0;
     if (!source_.integer(*property.count, length)) return source_.fail(element, i);
     if (length < 0 || static_cast<std::uint64_t>(length) > source_.room(*property.scalar))
       return source_.fail_length(element, i, length);
+    std::array<VertexId, 2> last{};  // the two corners before, in a strip
+    std::int64_t in_strip = 0;
     for (std::int64_t k = 0; k < length; ++k) {
-      if (!corners) {
+      if (use == List::other) {
         if (!source_.skip(*property.scalar)) return source_.fail(element, i);
         continue;
       }
       std::int64_t vertex = 0;
       if (!source_.integer(*property.scalar, vertex)) return source_.fail(element, i);
+      if (use == List::strips && is_strip_end(*property.scalar, vertex)) {
+        in_strip = 0;
+        if (is_pause(k) && context_.cancelled()) return cancelled();
+        continue;
+      }
       if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertex_count_)
         return source_.fail_text(out_of_range(i, vertex, vertex_count_));
-      out_.corners.push_back(static_cast<VertexId>(vertex));
+      const VertexId corner = static_cast<VertexId>(vertex);
+      if (use == List::corners) {
+        out_.corners.push_back(corner);
+        continue;
+      }
+      if (++in_strip >= 3) add_strip_triangle(last, corner, in_strip % 2 == 0);
+      last = {last[1], corner};
     }
     return {};
+  }
+
+  /// -1 ends a strip, also where the type has no sign.
+  static bool is_strip_end(const Scalar& scalar, std::int64_t vertex) {
+    return vertex == -1 || (scalar.size == 4 && vertex == 0xFFFFFFFF);
+  }
+
+  /// Every second triangle of a strip runs the other way round. One with a repeated corner only
+  /// leads on to the next and is none.
+  void add_strip_triangle(const std::array<VertexId, 2>& last, VertexId corner, bool turned) {
+    if (last[0] == last[1] || last[1] == corner || corner == last[0]) return;
+    out_.corners.insert(out_.corners.end(), {last[turned ? 1 : 0], last[turned ? 0 : 1], corner});
+    out_.starts.push_back(out_.corners.size());
   }
 
   Source source_;
@@ -367,8 +403,7 @@ class AsciiSource {
   tl::unexpected<Error> fail(const Element& element, std::uint64_t i) const {
     if (word_.empty())
       return fail_text("the file is truncated, it ends in " + place(element, i) + ".");
-    return fail_text("expected a number in " + place(element, i) + ", found " + quoted(word_) +
-                     ".");
+    return fail_text("expected a number in " + place(element, i) + ", " + found_instead(word_));
   }
   tl::unexpected<Error> fail_length(const Element& element, std::uint64_t i,
                                     std::int64_t length) const {
@@ -393,15 +428,20 @@ Result<void> check(const FileBytes& file, const Header& header) {
   for (const char* axis : {"x", "y", "z"})
     if (!vertex->find(axis, false))
       return fail(file.path + ": its vertices have no coordinate \"" + axis + "\".");
-  if (!face)
-    return fail(file.path + (header.find("tristrips")
-                                 ? " keeps its faces as strips of triangles, which cannot be read."
-                                 : " holds no faces: its header has no element \"face\"."));
-  const std::size_t list = Body<AsciiSource>::face_list(*face);
-  if (list == face->properties.size())
-    return fail(file.path + ": its faces have no list \"vertex_indices\".");
-  if (!face->properties[list].scalar->whole)
-    return fail(file.path + ": its faces name their vertices by numbers that are not whole.");
+  const Element* const strips = header.find(strips_name);
+  if (!face && !strips)
+    return fail(file.path + " holds no faces (" + std::to_string(vertex->count) +
+                " points): its header has no element \"face\".");
+  for (const Element* const element : {face, strips}) {
+    if (!element) continue;
+    const std::string what = element == face ? "faces" : "strips";
+    const std::size_t list = Body<AsciiSource>::face_list(*element);
+    if (list == element->properties.size())
+      return fail(file.path + ": its " + what + " have no list \"vertex_indices\".");
+    if (!element->properties[list].scalar->whole)
+      return fail(file.path + ": its " + what +
+                  " name their vertices by numbers that are not whole.");
+  }
 
   // The last number of a text may lack the blank after it.
   const std::uint64_t held =
@@ -427,12 +467,17 @@ Result<void> read_ply(const FileBytes& file, PolygonFile& out, const Context& co
   if (!header) return tl::unexpected(header.error());
   if (const Result<void> ok = check(file, *header); !ok) return ok;
   out.starts.push_back(0);
-  if (header->encoding == Encoding::ascii)
-    return Body(AsciiSource(file, *header), *header, out, context).read();
   constexpr bool little_machine = std::endian::native == std::endian::little;
-  if ((header->encoding == Encoding::little_endian) == little_machine)
-    return Body(BinarySource<false>(file, header->size), *header, out, context).read();
-  return Body(BinarySource<true>(file, header->size), *header, out, context).read();
+  const Result<void> done =
+      header->encoding == Encoding::ascii
+          ? Body(AsciiSource(file, *header), *header, out, context).read()
+      : (header->encoding == Encoding::little_endian) == little_machine
+          ? Body(BinarySource<false>(file, header->size), *header, out, context).read()
+          : Body(BinarySource<true>(file, header->size), *header, out, context).read();
+  if (done && out.polygon_count() == 0 && header->find(strips_name))
+    return fail(file.path + " holds no faces (" + std::to_string(out.points.size()) +
+                " points): there is no triangle in its strips.");
+  return done;
 }
 
 }  // namespace arris

@@ -22,11 +22,15 @@ Result<void> read_stl_ascii(const FileBytes& file, PolygonFile& out, const Conte
 Result<void> read_ply(const FileBytes& file, PolygonFile& out, const Context& context);
 Result<void> read_obj(const FileBytes& file, PolygonFile& out, const Context& context);
 Result<void> read_off(const FileBytes& file, PolygonFile& out, const Context& context);
+/// The parts of a 3MF package that its build asks for, each where its transforms put it, in one
+/// list; their unit as the file names it.
+Result<void> read_3mf(const FileBytes& file, PolygonFile& out, const Context& context);
 
 /// True when a binary STL of just this size would have the triangle count these bytes hold.
 bool has_size_of_binary_stl(std::string_view bytes);
 
-/// True for a word that opens an OFF file: OFF, COFF, NOFF, STOFF, STCNOFF, 4OFF, nOFF...
+/// True for a word that opens an OFF file: OFF, COFF, NOFF, STOFF, STCNOFF, 4OFF, nOFF..., also
+/// with the number of vertices glued to it (OFF490).
 bool is_off_header(std::string_view word);
 
 /// Ids are 32 bits and OpenMesh's are signed.

@@ -1,9 +1,12 @@
 #include "core/mesh/scan.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "core/mesh/build_mesh.h"
+#include "core/mesh/coordinate_step.h"
+#include "core/mesh/weld.h"
 #include "core/mesh/within_memory.h"
 
 namespace arris {
@@ -28,15 +31,74 @@ bool is_as_in_file(const Mesh& mesh, const PolygonFile& file) {
                      mesh.face_count() * sizeof(Triangle)) == 0;
 }
 
-}  // namespace
-
-Result<ScanPtr> load_scan(const std::string& path, const Context& context) {
-  Result<PolygonFile> file = read_polygon_file(path, context.part(0.0, 0.4));
-  if (!file) return tl::unexpected(file.error());
-  return make_scan(std::move(*file), path, context.part(0.4, 1.0));
+std::vector<VertexId> applied(const Weld& weld, const std::vector<VertexId>& corners) {
+  std::vector<VertexId> result(corners.size());
+  for (std::size_t c = 0; c < corners.size(); ++c) result[c] = weld.target[corners[c]];
+  return result;
 }
 
-Result<ScanPtr> make_scan(PolygonFile polygons, const std::string& name, const Context& context) {
+/// Vertices as computed twice with the last digits of the file may lie this many of its steps apart
+/// (two along each axis, and some).
+constexpr double steps_apart = 4.0;
+
+/// Builds the mesh of the vertices that remain when those on one place are joined.
+Result<BuiltMesh> build_joined(const PolygonFile& file, const ScanOptions& options,
+                               LoadReport& report, const Context& context) {
+  Weld weld = weld_coincident(file.points, file.corners);
+  const double step = coordinate_step(file.points);
+  JoinedVertices joined;
+  joined.coincident = weld.joined;
+  joined.kept_apart = !options.weld;
+  if (!options.weld) {
+    if (weld.joined > 0)
+      joined.coincident_edges = cuts_closed_by(weld.target, file.starts, file.corners);
+    weld = {};
+  }
+  const bool any = weld.joined > 0;
+  const std::vector<VertexId> corners_joined =
+      any ? applied(weld, file.corners) : std::vector<VertexId>();
+  const std::vector<Point>& points = any ? weld.points : file.points;
+  const std::vector<VertexId>& corners = any ? corners_joined : file.corners;
+
+  Result<BuiltMesh> built =
+      build_mesh(points, file.starts, corners, report, context.part(0.0, 0.9));
+  if (built && options.weld && report.border_edges > 0) {
+    const double tolerance = steps_apart * step;
+    const BorderWeld closing =
+        weld_border(*built->mesh, points, report.copies, report.non_manifold_edges, tolerance);
+    if (closing.closed_edges > 0) {
+      joined.near = closing.weld.joined;
+      joined.near_edges = closing.closed_edges;
+      joined.tolerance = tolerance;
+      built = build_mesh(closing.weld.points, file.starts, applied(closing.weld, corners), report,
+                         context.part(0.9, 1.0));
+    }
+  }
+  if (!built) return built;
+  report.file_vertices = file.points.size();
+  report.joined = joined;
+  report.coordinate_step = step;
+  const Mesh& mesh = *built->mesh;
+  if (mesh.diagonal() > 0.0)
+    report.distance_in_sizes = std::max(mesh.box_min().lpNorm<Eigen::Infinity>(),
+                                        mesh.box_max().lpNorm<Eigen::Infinity>()) /
+                               mesh.diagonal();
+  if (mesh.mean_edge_length() > 0.0)
+    report.step_over_edge = report.coordinate_step / mesh.mean_edge_length();
+  return built;
+}
+
+}  // namespace
+
+Result<ScanPtr> load_scan(const std::string& path, const Context& context,
+                          const ScanOptions& options) {
+  Result<PolygonFile> file = read_polygon_file(path, context.part(0.0, 0.4));
+  if (!file) return tl::unexpected(file.error());
+  return make_scan(std::move(*file), path, context.part(0.4, 1.0), options);
+}
+
+Result<ScanPtr> make_scan(PolygonFile polygons, const std::string& name, const Context& context,
+                          const ScanOptions& options) {
   return within_memory(name, [&]() -> Result<ScanPtr> {
     auto scan = std::make_shared<Scan>();
     scan->report.file = name;
@@ -44,8 +106,9 @@ Result<ScanPtr> make_scan(PolygonFile polygons, const std::string& name, const C
     scan->report.content_hash = polygons.content_hash;
     scan->report.file_bytes = polygons.bytes;
     scan->report.welded_corners = polygons.welded_corners;
-    Result<BuiltMesh> built =
-        build_mesh(polygons.points, polygons.starts, polygons.corners, scan->report, context);
+    scan->report.unit = polygons.unit;
+    scan->report.notes = polygons.notes;
+    Result<BuiltMesh> built = build_joined(polygons, options, scan->report, context);
     if (!built) return tl::unexpected(built.error());
     scan->mesh = std::move(built->mesh);
     scan->source_faces = std::move(built->source_faces);

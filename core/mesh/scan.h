@@ -23,10 +23,18 @@ struct Scan {
 
 using ScanPtr = std::shared_ptr<const Scan>;
 
+struct ScanOptions {
+  /// Vertices with equal coordinates are joined, then vertices of the border that lie no farther
+  /// apart than the last digits of the file tell, where that closes the surface. Off: they stay as
+  /// the file has them (the corners of STL, which has no vertices, are joined where equal).
+  bool weld = true;
+};
+
 /// Reads and builds. Errors: those of read_polygon_file() and build_mesh().
-Result<ScanPtr> load_scan(const std::string& path, const Context& context = {});
+Result<ScanPtr> load_scan(const std::string& path, const Context& context = {},
+                          const ScanOptions& options = {});
 /// The same from polygons in memory; `name` stands for the file name in the report.
 Result<ScanPtr> make_scan(PolygonFile polygons, const std::string& name,
-                          const Context& context = {});
+                          const Context& context = {}, const ScanOptions& options = {});
 
 }  // namespace arris

@@ -16,6 +16,7 @@ class TextScanner {
  public:
   struct Style {
     bool hash_comments = false;    ///< A word that begins with # hides the rest of its line.
+    bool hash_ends_words = false;  ///< So does a # within a word, which ends there.
     bool continued_lines = false;  ///< A backslash at the end of a line continues it.
   };
 
@@ -30,7 +31,9 @@ class TextScanner {
   std::string_view word_in_line() {
     skip_blanks();
     const char* const begin = at_;
-    while (at_ != end_ && !is_space(*at_) && !is_continuation()) ++at_;
+    while (at_ != end_ && !is_space(*at_) && !is_continuation() &&
+           !(style_.hash_ends_words && *at_ == '#'))
+      ++at_;
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
 
@@ -124,6 +127,21 @@ inline std::optional<std::int64_t> parse_integer(std::string_view word) {
   return value;
 }
 
+/// Whether a word is a number but for a comma in the place of its point: "1,5", "-,25e3".
+inline bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos || word.find('.') != std::string_view::npos) return false;
+  std::string with_point(word);
+  with_point[comma] = '.';
+  return comma + 1 < word.size() && parse_number(with_point).has_value();
+}
+
+/// The same, but numbers may be set apart by commas: "1.5," is 1.5.
+inline std::optional<double> parse_listed_number(std::string_view word) {
+  if (word.size() > 1 && word.ends_with(',')) word.remove_suffix(1);
+  return parse_number(word);
+}
+
 /// The word in quotation marks for a message: shortened, and without bytes that are not plain text.
 inline std::string quoted(std::string_view word) {
   constexpr std::size_t longest = 32;
@@ -131,6 +149,13 @@ inline std::string quoted(std::string_view word) {
   for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
   if (word.size() > longest) text += "...";
   return text + "\"";
+}
+
+/// What stands where a number should, for a message: `found "x".`
+inline std::string found_instead(std::string_view word) {
+  if (word.empty()) return "found the end of the line.";
+  return "found " + quoted(word) +
+         (has_decimal_comma(word) ? ", a decimal comma: numbers need a decimal point." : ".");
 }
 
 }  // namespace arris

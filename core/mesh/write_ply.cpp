@@ -164,33 +164,75 @@ std::vector<std::uint32_t> polygon_labels(const Scan& scan,
 
 }  // namespace
 
-Result<void> write_file_whole(const std::string& path, const std::string& content) {
+namespace {
+
+/// Where a file goes, and a new file beside it that will take its place.
+struct Place {
+  std::filesystem::path target, folder;
+  NewFile file;
+};
+
+/// Makes the new file.
+Result<void> prepare(const std::string& path, Place& place) {
   // A link keeps pointing to its file: that file is replaced, not the link.
-  std::filesystem::path target = path;
+  place.target = path;
   std::error_code ignored;  // an absent file is no error here, and what else is wrong shows below
-  if (std::filesystem::is_symlink(target, ignored)) {
-    const std::filesystem::path file = std::filesystem::weakly_canonical(target, ignored);
-    if (!ignored) target = file;
+  if (std::filesystem::is_symlink(place.target, ignored)) {
+    const std::filesystem::path file = std::filesystem::weakly_canonical(place.target, ignored);
+    if (!ignored) place.target = file;
   }
-  if (target.filename().empty())
+  if (place.target.filename().empty())
     return fail(path + " cannot be written: it is not the name of a file.");
   struct stat existing {};
-  const bool exists = ::stat(target.c_str(), &existing) == 0;
+  const bool exists = ::stat(place.target.c_str(), &existing) == 0;
   if (exists && S_ISDIR(existing.st_mode))
     return fail(path + " cannot be written: it is a directory.");
   if (exists && !S_ISREG(existing.st_mode))
     return fail(path + " cannot be written: it is not an ordinary file.");
-  if (exists && ::access(target.c_str(), W_OK) != 0)
+  if (exists && ::access(place.target.c_str(), W_OK) != 0)
     return fail(path + " cannot be written: " + system_reason() + ".");
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  place.folder = place.target.has_parent_path() ? place.target.parent_path() : ".";
+  if (!place.file.create(place.folder))
+    return fail(path + " cannot be created: " + system_reason() + ".");
+  if (exists) place.file.set_mode(existing.st_mode);
+  return {};
+}
 
+}  // namespace
+
+Result<void> check_writable(const std::string& path) {
+  Place place;
+  return prepare(path, place);
+}
+
+Result<void> check_folder_writable(const std::string& folder) {
+  // The nearest one above that is there.
+  std::filesystem::path there = std::filesystem::path(folder).lexically_normal();
+  if (there.filename().empty() && there.has_parent_path()) there = there.parent_path();
+  struct stat existing {};
+  while (::stat(there.empty() ? "." : there.c_str(), &existing) != 0) {
+    if (errno != ENOENT || there == there.parent_path())
+      return fail("The folder " + folder + " cannot be made: " + system_reason() + ".");
+    there = there.parent_path();
+  }
+  if (there.empty()) there = ".";
+  if (!S_ISDIR(existing.st_mode))
+    return fail("The folder " + folder + " cannot be made: " + there.string() +
+                " is a file, not a folder.");
   NewFile file;
-  if (!file.create(folder)) return fail(path + " cannot be created: " + system_reason() + ".");
-  if (exists) file.set_mode(existing.st_mode);
-  if (!file.write(content)) return fail(path + " cannot be written: " + system_reason() + ".");
-  if (!file.rename_to(target.string()))
+  if (!file.create(there))
+    return fail("Nothing can be written to the folder " + folder + ": " + system_reason() + ".");
+  return {};
+}
+
+Result<void> write_file_whole(const std::string& path, const std::string& content) {
+  Place place;
+  if (const Result<void> ready = prepare(path, place); !ready) return ready;
+  if (!place.file.write(content))
+    return fail(path + " cannot be written: " + system_reason() + ".");
+  if (!place.file.rename_to(place.target.string()))
     return fail(path + " cannot be replaced: " + system_reason() + ".");
-  sync_folder(folder);
+  sync_folder(place.folder);
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -320,20 +321,48 @@ TEST_F(Cli, OperationsThatCannotBeRunAreOneSentence) {
   EXPECT_FALSE(fs::exists(out));
 }
 
-TEST_F(Cli, FileNameThatIsNotUtf8IsDoneOrRefusedInASentence) {
-  const std::string odd = folder.file("caf\xe9.ply"), results = folder.file("results");
-  fs::copy_file(small_part(), odd);
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"info", odd},
-                                             {"info", odd, "--json"},
-                                             {"curvature", odd, "-o", folder.file("k\xe9.ply")},
-                                             {"segment", odd, "-o", results}}) {
-    const Outcome outcome = run(arguments);
-    EXPECT_TRUE(outcome.code == 0 || outcome.code == 1) << arguments[0] << ": " << outcome.code;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), outcome.code) << outcome.err;
+TEST_F(Cli, PlacesAreLookedAtBeforeTheWork) {
+  // Nothing is there to work on, and still it is the place that is complained of.
+  const std::string none = folder.file("none.ply"), file = folder.write("file", "");
+  expect_bad_input({"curvature", none, "-o", folder.file("no/k.ply")}, "No such file or directory");
+  expect_bad_input({"simplify", none, "-o", folder.file("no/k.ply")}, "No such file or directory");
+  expect_bad_input({"curvature", none, "-o", folder.path().string()}, "it is a directory");
+  expect_bad_input({"segment", none, "-o", file}, "file is a file, not a folder");
+  expect_bad_input({"segment", none, "-o", file + "/a/b"}, "cannot be made");
+  expect_bad_input({"replay", none, "-o", file}, "file is a file, not a folder");
+  fs::create_directories(folder.file("results/lines.obj"));
+  expect_bad_input({"segment", none, "-o", folder.file("results")}, "lines.obj cannot be written");
+  // Asking leaves nothing behind.
+  expect_bad_input({"segment", none, "-o", folder.file("new/folder")}, "none.ply");
+  EXPECT_FALSE(fs::exists(folder.file("new")));
+  expect_bad_input({"curvature", none, "-o", folder.file("k.ply")}, "none.ply");
+  EXPECT_FALSE(fs::exists(folder.file("k.ply")));
+  if (::geteuid() != 0) {  // whom nothing keeps from writing
+    fs::create_directory(folder.file("locked"));
+    fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+    expect_bad_input({"segment", none, "-o", folder.file("locked")}, "locked: Permission denied");
+    expect_bad_input({"segment", none, "-o", folder.file("locked/a")}, "Permission denied");
   }
-  if (fs::exists(results)) {
-    expect_done({"replay", results + "/operations.jsonl", "-o", folder.file("again")});
+}
+
+TEST_F(Cli, FileNamesMayBeInAnyEncoding) {
+  const std::string part = small_part();
+  for (const std::string name :
+       {"caf\xe9", "\xc3\xa4\xe6\xa8\xa1\xe5\x85\xb7", "\xff\xfe\x80", "a\nb"}) {
+    SCOPED_TRACE(name);
+    const std::string odd = folder.file(name + ".ply"), results = folder.file(name + " results");
+    fs::copy_file(part, odd);
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"info", odd},
+             {"info", odd, "--json"},
+             {"curvature", odd, "-o", folder.file(name + "k.ply")},
+             {"segment", odd, "-o", results},
+             {"replay", results + "/operations.jsonl", "-o", folder.file(name + " again")}})
+      expect_done(arguments);
+    EXPECT_EQ(folder.read(name + " again/lines.obj"), folder.read(name + " results/lines.obj"));
+    fs::rename(odd, folder.file("moved" + name));
+    expect_done({"replay", results + "/operations.jsonl", "--scan", folder.file("moved" + name),
+                 "-o", folder.file("third")});
   }
 }
 
@@ -383,6 +412,61 @@ TEST_F(Cli, InfoTellsWhatWasMended) {
   ASSERT_FALSE(report["sentences"].empty());
   for (const json& sentence : report["sentences"])
     EXPECT_NE(text.out.find(sentence.get<std::string>()), std::string::npos);
+}
+
+/// Each face with vertices of its own.
+std::string soup_obj(const Triangles& mesh) {
+  std::string vertices, faces;
+  std::size_t count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (const VertexId v : t)
+      vertices += "v " + std::to_string(mesh.points[v].x()) + " " +
+                  std::to_string(mesh.points[v].y()) + " " + std::to_string(mesh.points[v].z()) +
+                  "\n";
+    faces += "f " + std::to_string(count + 1) + " " + std::to_string(count + 2) + " " +
+             std::to_string(count + 3) + "\n";
+    count += 3;
+  }
+  return vertices + faces;
+}
+
+TEST_F(Cli, VerticesOnOnePlaceAreJoinedUnlessNotWished) {
+  const std::string scan = folder.write("soup.obj", soup_obj(divided_cube(20.0, 6)));
+  const json joined = json::parse(run({"info", scan, "--json"}).out);
+  EXPECT_EQ(joined["vertices"], 218);
+  EXPECT_EQ(joined["border_edges"], 0);
+  EXPECT_EQ(joined["coincident_vertices"], 1296 - 218);
+  const Outcome apart = run({"info", "--no-weld", scan});
+  EXPECT_NE(apart.out.find("432 components"), std::string::npos) << apart.out;
+  EXPECT_NE(
+      apart.out.find("lie on 218 places and were kept apart as wished, which cuts the surface "
+                     "along 648 edges."),
+      std::string::npos)
+      << apart.out;
+  expect_done({"segment", scan, "-o", folder.file("a")});
+  EXPECT_EQ(summary("a")["lines"]["count"], 12);
+  EXPECT_EQ(summary("a")["partitions"]["count"], 6);
+  expect_done({"replay", folder.file("a/operations.jsonl"), "-o", folder.file("b")});
+  EXPECT_EQ(summary("b")["document_hash"], summary("a")["document_hash"]);
+  EXPECT_EQ(run({"segment", scan, "--no-weld", "-o", folder.file("c")}).code, 0);
+  EXPECT_EQ(summary("c")["scan"]["components"], 432);
+}
+
+TEST_F(Cli, BlocksThatTouchAlongAnEdgeKeepAllTheirLines) {
+  Triangles blocks = divided_cube(20.0, 4);
+  const std::size_t first = blocks.points.size();
+  for (std::size_t v = 0; v < first; ++v)
+    blocks.points.push_back(blocks.points[v] + Point(20, 20, 0));
+  for (std::size_t f = 0, count = blocks.triangles.size(); f < count; ++f) {
+    Triangle t = blocks.triangles[f];
+    for (VertexId& v : t) v += static_cast<VertexId>(first);
+    blocks.triangles.push_back(t);
+  }
+  expect_done({"segment", folder.write("blocks.obj", soup_obj(blocks)), "-o", folder.file("r")});
+  EXPECT_EQ(summary("r")["scan"]["border_edges"], 0);
+  EXPECT_EQ(summary("r")["scan"]["paired_edges"]["count"], 4);
+  EXPECT_EQ(summary("r")["lines"]["count"], 24);
+  EXPECT_EQ(summary("r")["partitions"]["count"], 12);
 }
 
 TEST_F(Cli, CurvatureWritesSixProperties) {

@@ -552,6 +552,81 @@ TEST(Curvature, PlaneIsFlatInEveryQuantity) {
   }
 }
 
+TEST(Curvature, FlatSidesAreFlatUpToTheirEdgesHoweverTheyAreCut) {
+  // A block whose sides are cut into squares, and the same drawn out into needles.
+  for (const double stretch : {1.0, 1000.0}) {
+    Triangles block = divided_cube(10.0, 8);
+    Point low = block.points[0], high = low;
+    for (Point& p : block.points) {
+      p.x() *= stretch;
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const MeshPtr mesh = mesh_of(block);
+    const CurvaturesPtr c = curvatures_of(*mesh);
+    for (VertexId v = 0; v < mesh->vertex_count(); ++v) {
+      int sides = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        sides += mesh->point(v)[axis] == low[axis] || mesh->point(v)[axis] == high[axis];
+      if (sides != 1) continue;
+      for (const auto* values : {&c->k, &c->h, &c->kabs, &c->ikabs})
+        EXPECT_NEAR((*values)[v], 0.0, 1e-9) << "vertex " << v;
+    }
+  }
+}
+
+TEST(Curvature, BordersDoNotReachInside) {
+  // A cap of a sphere, by rings round its pole, and a pipe: every vertex off the border is right.
+  constexpr int rings = 18, around = 72;
+  constexpr double radius = 25.0, opening = 0.9;
+  Triangles cap{{Point(0, 0, radius)}, {}};
+  const auto at = [](int ring, int step) {
+    return static_cast<VertexId>(1 + (ring - 1) * around + step % around);
+  };
+  for (int ring = 1; ring <= rings; ++ring)
+    for (int step = 0; step < around; ++step) {
+      const double polar = opening * ring / rings, turn = 2 * pi * step / around;
+      cap.points.push_back({radius * std::sin(polar) * std::cos(turn),
+                            radius * std::sin(polar) * std::sin(turn), radius * std::cos(polar)});
+    }
+  for (int step = 0; step < around; ++step) {
+    cap.triangles.push_back({0, at(1, step), at(1, step + 1)});
+    for (int ring = 1; ring < rings; ++ring) {
+      cap.triangles.push_back({at(ring, step), at(ring + 1, step), at(ring + 1, step + 1)});
+      cap.triangles.push_back({at(ring, step), at(ring + 1, step + 1), at(ring, step + 1)});
+    }
+  }
+  const auto check = [](const Triangles& part, double k, double k_error, double h, double h_error) {
+    const MeshPtr mesh = mesh_of(part);
+    const CurvaturesPtr c = curvatures_of(*mesh);
+    for (VertexId v = 0; v < mesh->vertex_count(); ++v) {
+      if (mesh->is_border(v)) {
+        EXPECT_TRUE(std::isnan(c->k[v]) && std::isnan(c->h[v]) && std::isnan(c->kabs[v]));
+        continue;
+      }
+      EXPECT_NEAR(c->k[v], k, k_error) << "vertex " << v;
+      EXPECT_NEAR(c->h[v], h, h_error) << "vertex " << v;
+    }
+  };
+  check(cap, 1.0 / (radius * radius), 0.05 / (radius * radius), 1.0 / radius, 0.05 / radius);
+  check(cylinder_wall(10.0, 20.0, 110, 40), 0.0, 1e-6, 0.05, 0.02 * 0.05);
+}
+
+TEST(Curvature, NeedlesAreAsGoodAsOtherFaces) {
+  // A pipe of radius 10 made of faces 60 long and 0.65 wide; its middle ring is off the border.
+  const MeshPtr mesh = mesh_of(cylinder_wall(10.0, 120.0, 96, 2));
+  const CurvaturesPtr c = curvatures_of(*mesh);
+  int inside = 0;
+  for (VertexId v = 0; v < mesh->vertex_count(); ++v) {
+    if (mesh->is_border(v)) continue;
+    ++inside;
+    EXPECT_NEAR(c->k[v], 0.0, 1e-6);
+    EXPECT_NEAR(c->h[v], 0.05, 0.02 * 0.05);
+    EXPECT_NEAR(c->kabs[v], 0.01, 0.04 * 0.01);
+  }
+  EXPECT_EQ(inside, 96);
+}
+
 TEST(Curvature, PairingsMakeUpIkabs) {
   const MeshPtr mesh = mesh_of(random_terrain(12, 8));
   for (const InvariantPairing pairing : pairings) {

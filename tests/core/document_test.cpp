@@ -146,7 +146,7 @@ TEST_F(Operations, DefaultsAreComplete) {
     return result;
   };
   using Names = std::set<std::string>;
-  EXPECT_EQ(names({"open", {{"file", path}}}), (Names{"file", "hash", "version"}));
+  EXPECT_EQ(names({"open", {{"file", path}}}), (Names{"file", "hash", "weld", "version"}));
   EXPECT_EQ(names({"flip_orientation", json::object()}), (Names{"version"}));
   EXPECT_EQ(names({"delete_faces", {{"box", {0, 0, -1, 5, 5, 9}}}}),
             (Names{"box", "side", "version"}));
@@ -303,6 +303,30 @@ TEST_F(Operations, FileNameThatIsNotUtf8DoesNotThrow) {
     else
       expect_sentence(opened.error());
   });
+}
+
+TEST_F(Operations, FileNamesOfAnyBytesAreOpenedAndWrittenDown) {
+  const std::string odd = folder.file("caf\xe9.ply");
+  std::filesystem::copy_file(path, odd);
+  const Performed opened = value_of(perform({}, open_file(odd)));
+  EXPECT_EQ(opened.document.scan_path, odd);
+  const Operation again = value_of(Operation::parse(opened.operation.text()));
+  EXPECT_EQ(value_of(perform({}, again)).document.scan_path, odd);
+  EXPECT_EQ(open_file(path), (Operation{"open", {{"file", path}}}));
+  EXPECT_FALSE(perform({}, {"open", {{"file", "x"}, {"file_bytes", "6"}}}));
+  EXPECT_FALSE(perform({}, {"open", {{"file", "x"}, {"file_bytes", "zz"}}}));
+}
+
+TEST_F(Operations, RowsOfVersionOneOpenAsTheyDidThen) {
+  // Two triangles side by side, each with vertices of its own.
+  const std::string scan = folder.write(
+      "apart.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n");
+  const auto vertices = [&](const nlohmann::json& parameters) {
+    return value_of(perform({}, {"open", parameters})).document.mesh->vertex_count();
+  };
+  EXPECT_EQ(vertices({{"file", scan}}), 4u);
+  EXPECT_EQ(vertices({{"file", scan}, {"weld", false}}), 6u);
+  EXPECT_EQ(vertices({{"file", scan}, {"version", 1}}), 6u);
 }
 
 // ---- what is shared, what is kept ----

@@ -618,7 +618,7 @@ void MainWindow::choose_file() {
   QSettings settings;
   const QString path = QFileDialog::getOpenFileName(
       this, tr("Open scan"), settings.value("folders/open").toString(),
-      tr("Scans and sessions (*.stl *.ply *.obj *.off *.jsonl);;All files (*)"));
+      tr("Scans and sessions (*.stl *.ply *.obj *.off *.3mf *.gz *.jsonl);;All files (*)"));
   if (path.isEmpty()) return;
   settings.setValue("folders/open", QFileInfo(path).absolutePath());
   open(path);
