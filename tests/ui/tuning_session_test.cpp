@@ -9,6 +9,7 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QImage>
+#include <QLabel>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTest>
@@ -17,6 +18,7 @@
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls.h"
 #include "ui/panels/element_table.h"
+#include "ui/panels/steps_panel.h"
 #include "ui/panels/treatment_bar.h"
 
 namespace arris::ui {
@@ -370,6 +372,42 @@ TEST_F(TuningSession, KeysThatGoElsewhereCloseThePreviewFirst) {
   EXPECT_FALSE(bar().isVisible());
   ASSERT_TRUE(settles([&] { return idle() && window->session().history().head() == head - 1; }));
   EXPECT_FALSE(bar().isVisible()) << "nor does it come back over another document";
+}
+
+TEST_F(TuningSession, AnEditedCardSaysSoAndF5RunsIt) {
+  open_sample();
+  run_both();
+  auto* panel = window->findChild<StepsPanel*>();
+  const double angle = document().find_sharp_lines->parameters.at("angle").get<double>();
+  NumberBox* box = nullptr;
+  for (NumberBox* each : panel->findChildren<NumberBox*>())
+    if (each->accessibleName().contains("TV_IH")) box = each;
+  ASSERT_NE(box, nullptr);
+  const auto says_changed = [&] {
+    const QList<QLabel*> labels = panel->findChildren<QLabel*>();
+    return std::ranges::any_of(labels, [](const QLabel* label) {
+      return label->isVisible() && label->text().startsWith("Changed, not run");
+    });
+  };
+  EXPECT_FALSE(says_changed());
+  const std::uint32_t before = rows();
+  box->setFocus();
+  box->selectAll();
+  QTest::keyClicks(box, QString::number(angle + 8.0));
+  EXPECT_TRUE(panel->is_edited("find_sharp_lines"));
+  EXPECT_TRUE(says_changed());
+  press(Qt::Key_F5);
+  ASSERT_TRUE(settles([&] { return rows() == before + 2 && idle(); })) << "lines, then partitions";
+  EXPECT_NEAR(document().find_sharp_lines->parameters.at("angle").get<double>(), angle + 8.0, 1e-9);
+  EXPECT_FALSE(says_changed());
+  EXPECT_FALSE(panel->is_edited("find_sharp_lines"));
+  // Typed back to what it is: nothing has changed.
+  box->selectAll();
+  QTest::keyClicks(box, QString::number(angle));
+  EXPECT_TRUE(panel->is_edited("find_sharp_lines"));
+  box->selectAll();
+  QTest::keyClicks(box, QString::number(angle + 8.0));
+  EXPECT_FALSE(panel->is_edited("find_sharp_lines"));
 }
 
 TEST_F(TuningSession, EachOfManyUndosIsDone) {

@@ -175,14 +175,23 @@ class Field {
     if (!touched_) show();
   }
 
+  /// Whether it shows another value than the document has.
+  bool is_edited() const { return touched_ && typed() != parameter_.value; }
+
   std::function<void()> edited;
+  std::function<void()> entered;           // a number, whole
   std::function<void()> dragged, settled;  // of a slider, which is followed at once
 
  protected:
   virtual QVariant read() = 0;
+  virtual QVariant typed() const = 0;  ///< As far as it was typed.
   virtual void show() = 0;
+  void enter() {
+    if (touched_ && entered) entered();
+  }
 
   StepParameter parameter_;
+  QObject alive_;  // editors that lose the focus in their end still tell that they are finished
 
  private:
   bool touched_ = false;
@@ -217,6 +226,7 @@ class RealField : public Field {
     box_->setSuffix(parameter.suffix);
     show();
     QObject::connect(box_, &NumberBox::edited, box_, [this] { touch(); });
+    QObject::connect(box_, &NumberBox::editingFinished, &alive_, [this] { enter(); });
   }
   QWidget* widget() const override { return box_; }
 
@@ -225,6 +235,7 @@ class RealField : public Field {
     box_->interpretText();
     return box_->value();
   }
+  QVariant typed() const override { return box_->valueFromText(box_->text()); }
   void show() override { box_->setValue(shown(parameter_.value.toDouble())); }
 
  private:
@@ -242,6 +253,7 @@ class WholeField : public Field {
     box_->setAccessibleName(parameter.label);
     show();
     QObject::connect(box_, &WholeBox::edited, box_, [this] { touch(); });
+    QObject::connect(box_, &WholeBox::editingFinished, &alive_, [this] { enter(); });
   }
   QWidget* widget() const override { return box_; }
 
@@ -250,6 +262,7 @@ class WholeField : public Field {
     box_->interpretText();
     return box_->value();
   }
+  QVariant typed() const override { return box_->cleanText().toInt(); }
   void show() override { box_->setValue(parameter_.value.toInt()); }
 
  private:
@@ -274,6 +287,7 @@ class ChoiceField : public Field {
 
  protected:
   QVariant read() override { return box_->currentData().toString(); }
+  QVariant typed() const override { return box_->currentData().toString(); }
   void show() override { box_->setCurrentIndex(box_->findData(parameter_.value.toString())); }
 
  private:
@@ -333,6 +347,15 @@ class IntervalsField : public Field {
     return list;
   }
 
+  QVariant typed() const override {
+    QVariantList list;
+    for (const Row& row : rows_) {
+      const double high = number(row.high);
+      list.append(
+          QVariant(QVariantList{number(row.low), high >= row.high->maximum() ? qInf() : high}));
+    }
+    return list;
+  }
   void show() override {
     const QVariantList list = parameter_.value.toList();
     while (rows_.size() > static_cast<std::size_t>(list.size())) drop_row(rows_.back().frame);
@@ -437,6 +460,7 @@ class ScaleField : public Field {
       place_slider(box_->value());
       touch();
     });
+    QObject::connect(box_, &NumberBox::editingFinished, &alive_, [this] { enter(); });
     QObject::connect(slider_, &QSlider::valueChanged, frame_, [this](int step) {
       box_->setValue(value_at(step));
       touch();
@@ -458,6 +482,7 @@ class ScaleField : public Field {
     box_->interpretText();
     return box_->value();
   }
+  QVariant typed() const override { return box_->valueFromText(box_->text()); }
   void show() override {
     if (slider_->isSliderDown()) return;
     box_->setValue(shown(parameter_.value.toDouble()));
@@ -530,8 +555,13 @@ class CardFrame : public QWidget {
     return map;
   }
   const StepCard& card() const { return card_; }
+  bool is_edited() const {
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (fields_[i]->is_edited() && value_of(i).isValid()) return true;
+    return false;
+  }
 
-  std::function<void()> run, dragged, settled;
+  std::function<void()> run, edited, entered, dragged, settled;
 
  protected:
   void paintEvent(QPaintEvent*) override;
@@ -561,6 +591,7 @@ class CardFrame : public QWidget {
     return {};
   }
   void allow_run();
+  void show_state();
   void build_controls(QVBoxLayout* column);
   void arrange_form();
 
@@ -616,6 +647,11 @@ void CardFrame::build_controls(QVBoxLayout* column) {
     field->edited = [this, chooses = parameter.kind == StepParameter::Kind::choice] {
       if (chooses) follow_choices();
       allow_run();
+      show_state();
+      if (edited) edited();
+    };
+    field->entered = [this] {
+      if (entered && !busy_) entered();
     };
     field->dragged = [this] {
       if (dragged && !busy_) dragged();
@@ -721,11 +757,8 @@ bool CardFrame::fits(const StepCard& card) const {
 void CardFrame::show_card(const StepCard& card) {
   card_ = card;
   setToolTip(card.tooltip);
-  icon_->set_state(card.state);
   title_->setText(card.title);
-  QString state = state_word(card.state);
   if (available()) {
-    if (!card.time.isEmpty()) state += QStringLiteral(" · ") + card.time;
     result_->setText(card.result);
     result_->setVisible(!card.result.isEmpty());
     for (std::size_t i = 0; i < fields_.size(); ++i)
@@ -736,6 +769,16 @@ void CardFrame::show_card(const StepCard& card) {
     show_hanging();
     allow_run();
   }
+  show_state();
+}
+
+/// What was edited and not run is not what the document holds.
+void CardFrame::show_state() {
+  const bool ran = card_.state == StepState::done || card_.state == StepState::out_of_date;
+  const bool changed = ran && is_edited();
+  icon_->set_state(changed ? StepState::out_of_date : card_.state);
+  QString state = changed ? QObject::tr("Changed, not run") : state_word(card_.state);
+  if (available() && !changed && !card_.time.isEmpty()) state += QStringLiteral(" · ") + card_.time;
   state_->setText(state);
   update();
 }
@@ -766,7 +809,8 @@ void CardFrame::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QColor paper = card_ground(palette());
-  const bool late = card_.state == StepState::out_of_date;
+  const bool late =
+      card_.state == StepState::out_of_date || (card_.state == StepState::done && is_edited());
   painter.setPen(late ? QPen(state_colour(card_.state, palette()), 1.4)
                       : QPen(mix(paper, palette().color(QPalette::Text), 0.28), 1.0));
   painter.setBrush(paper);
@@ -790,6 +834,8 @@ class StepsPanel::Private {
     auto* frame = new CardFrame(card, content);
     frame->set_busy(busy);
     frame->run = [this, frame] { emit q->run_requested(frame->card().name, frame->values()); };
+    frame->edited = [this] { emit q->edited(); };
+    frame->entered = [this, frame] { emit q->entered(frame->card().name, frame->values()); };
     frame->dragged = [this, frame] { emit q->dragged(frame->card().name, frame->values()); };
     frame->settled = [this, frame] { emit q->settled(frame->card().name, frame->values()); };
     return frame;
@@ -850,7 +896,10 @@ StepsPanel::StepsPanel(QWidget* parent) : QWidget(parent), p_(std::make_unique<P
   connect(p_->run_late, &QPushButton::clicked, this, &StepsPanel::run_out_of_date_requested);
 }
 
-StepsPanel::~StepsPanel() = default;
+StepsPanel::~StepsPanel() {
+  // What loses the focus in the end tells nobody any more.
+  for (CardFrame* frame : p_->frames) frame->entered = nullptr;
+}
 
 void StepsPanel::set_cards(const std::vector<StepCard>& cards) {
   const bool same = std::equal(
@@ -881,6 +930,12 @@ void StepsPanel::set_busy(bool busy) {
   p_->busy = busy;
   p_->run_late->setEnabled(!busy);
   for (CardFrame* frame : p_->frames) frame->set_busy(busy);
+}
+
+bool StepsPanel::is_edited(const QString& step) const {
+  return std::ranges::any_of(p_->frames, [&](const CardFrame* frame) {
+    return frame->card().name == step && frame->is_edited();
+  });
 }
 
 QVariantMap StepsPanel::values(const QString& step) const {

@@ -57,8 +57,14 @@ class StepsPanel : public QWidget {
   void set_cards(const std::vector<StepCard>& cards);
   void set_busy(bool busy);  ///< Run buttons off while work goes on.
   QVariantMap values(const QString& step) const;
+  /// Whether a value of the step was edited and not run.
+  bool is_edited(const QString& step) const;
 
  signals:
+  /// Whether a step is edited may be otherwise than before.
+  void edited();
+  /// A number that was typed is complete (Enter, or the focus went elsewhere).
+  void entered(const QString& step, const QVariantMap& values);
   /// Run pressed: the step with the values in its editors (key to value).
   void run_requested(const QString& step, const QVariantMap& values);
   /// A slider of the step is being dragged, or was let go: its values as they are now.

@@ -368,6 +368,7 @@ void MainWindow::make_actions() {
                     tr("On a fresh part: find sharp lines and partitions on the scan's own mesh. "
                        "Later: run again the steps that an earlier one has put out of date"));
   connect(run_all_, &QAction::triggered, steps_, &StepsPresenter::run_out_of_date);
+  connect(steps_, &StepsPresenter::edited, this, &MainWindow::refresh_actions);
   run_paper_ = action(part, tr("Run the paper's fl&ow"), QKeySequence("Shift+F5"),
                       tr("Figure 2 of the paper, from the scan on: simplify inside error zones, "
                          "find sharp lines by the walk along edges, equilateralise, find "

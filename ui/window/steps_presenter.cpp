@@ -35,12 +35,6 @@ bool is_optional(std::string_view step) {
   return step != "find_sharp_lines" && step != "find_partitions";
 }
 
-/// Whether "run all that is out of date" means this step.
-bool wants_run(const Document& document, const char* name) {
-  const std::optional<Step>& step = document.step(name);
-  return step ? step->out_of_date : !is_optional(name);
-}
-
 StepCard card(const QString& name, const QString& title, const QString& tooltip) {
   StepCard result;
   result.name = name;
@@ -140,6 +134,17 @@ StepsPresenter::StepsPresenter(Session* session, StepsPanel* panel, QObject* par
           [this](const QString& step, const QVariantMap& values) {
             session_->commit_preview(operation_from(step, values));
           });
+  connect(panel_, &StepsPanel::edited, this, &StepsPresenter::edited);
+  // Where a step takes no time, what is entered is run at once.
+  connect(panel_, &StepsPanel::entered, this,
+          [this](const QString& step, const QVariantMap& values) {
+            constexpr double at_once = 0.1;  // s
+            const std::string name = step.toStdString();
+            const double seconds = session_->seconds_of(name);
+            if (session_->current().document.step(name) && !session_->busy() &&
+                !session_->is_previewing() && seconds > 0.0 && seconds < at_once)
+              session_->run({operation_from(step, values)});
+          });
   connect(panel_, &StepsPanel::run_out_of_date_requested, this, &StepsPresenter::run_out_of_date);
   refresh();
 }
@@ -172,11 +177,16 @@ void StepsPresenter::run(const QString& step) {
   session_->run({operation_from(step, panel_->values(step))});
 }
 
+/// Whether "run all that is out of date" means this step.
+bool StepsPresenter::wants_run(const char* name) const {
+  const std::optional<Step>& step = session_->current().document.step(name);
+  return step ? step->out_of_date || panel_->is_edited(name) : !is_optional(name);
+}
+
 bool StepsPresenter::anything_out_of_date() const {
-  const Document& document = session_->current().document;
-  return !document.empty() &&
+  return !session_->current().document.empty() &&
          std::any_of(std::begin(chain), std::end(chain),
-                     [&](const char* name) { return wants_run(document, name); });
+                     [&](const char* name) { return wants_run(name); });
 }
 
 void StepsPresenter::run_out_of_date() {
@@ -186,7 +196,7 @@ void StepsPresenter::run_out_of_date() {
   for (const char* name : chain) {
     const std::optional<Step>& step = document.step(name);
     // Once one step is run, the later ones that were run are out of date, too.
-    if (!wants_run(document, name) && !(step && !operations.empty())) continue;
+    if (!wants_run(name) && !(step && !operations.empty())) continue;
     // A step never run takes its defaults from what the steps before it leave; those of the lines
     // come from the scan, so that what was chosen on their card counts.
     const bool by_card = step || std::string_view(name) == "find_sharp_lines";

@@ -26,7 +26,12 @@ class StepsPresenter : public QObject {
   void run_paper_flow();
   bool anything_out_of_date() const;
 
+ signals:
+  /// anything_out_of_date() may be otherwise than before.
+  void edited();
+
  private:
+  bool wants_run(const char* step) const;
   void refresh();
   const nlohmann::json& line_defaults(const char* method);
   StepCard lines_card();
