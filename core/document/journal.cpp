@@ -182,11 +182,16 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
     const double step = 1.0 / static_cast<double>(lines.size());
     const Context part =
         context.part(static_cast<double>(k) * step, static_cast<double>(k + 1) * step);
-    if (const auto run = result.history.run(*operation, part); !run)
+    const Result<void> run = result.history.run(*operation, part);
+    if (!run && !run.error().nothing_to_do)
       return run.error().cancelled ? tl::unexpected<Error>(run.error())
                                    : fail(where + run.error().message);
+    if (is_row) row_of[json["sequence"].get<std::uint32_t>()] = result.history.head();
+    if (!run) {
+      result.warnings.push_back(where + run.error().message + " Left out.");
+      continue;
+    }
     if (is_row) {
-      row_of[json["sequence"].get<std::uint32_t>()] = result.history.head();
       const std::string& hash = result.history.entries().back().hash;
       if (options.scan.empty() && json.contains("hash") && json["hash"] != hash)
         result.warnings.push_back(

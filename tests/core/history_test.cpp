@@ -589,6 +589,23 @@ TEST_F(JournalFile, RowThatWasCutOffByAFullDiskDoesNotSpoilThoseAfterIt) {
   EXPECT_EQ(hash_of(again->history.current()), hash_of(history.current()));
 }
 
+TEST_F(JournalFile, ARowThatFindsNothingToDoIsLeftOutWithAWarning) {
+  // As a recipe tuned on another part: nothing there is as small.
+  const std::string recipe = folder.write("recipe.jsonl", open().to_json().dump() + R"(
+{"operation": "find_sharp_lines"}
+{"operation": "find_partitions"}
+{"operation": "remove_small_partitions", "faces": 2}
+{"operation": "smooth_curvature", "passes": 1}
+)");
+  const Replay again = value_of(replay(recipe));
+  ASSERT_EQ(again.warnings.size(), 1u);
+  EXPECT_NE(again.warnings[0].find("has fewer than 2 faces"), std::string::npos)
+      << again.warnings[0];
+  EXPECT_NE(again.warnings[0].find("the smallest has"), std::string::npos) << again.warnings[0];
+  EXPECT_EQ(again.history.entries().size(), 4u);
+  EXPECT_EQ(again.history.entries().back().operation.name, "smooth_curvature");
+}
+
 TEST_F(JournalFile, CancelledReplayIsAnErrorThatSaysSo) {
   std::stop_source stop;
   stop.request_stop();

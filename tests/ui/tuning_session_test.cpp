@@ -401,6 +401,11 @@ TEST_F(TuningSession, AnEditedCardSaysSoAndF5RunsIt) {
   EXPECT_NEAR(document().find_sharp_lines->parameters.at("angle").get<double>(), angle + 8.0, 1e-9);
   EXPECT_FALSE(says_changed());
   EXPECT_FALSE(panel->is_edited("find_sharp_lines"));
+  press(Qt::Key_Tab);  // the field is left as it was run
+  QTest::qWait(200);
+  EXPECT_EQ(rows(), before + 2);
+  EXPECT_FALSE(document().find_partitions->out_of_date);
+  box->setFocus();
   // Typed back to what it is: nothing has changed.
   box->selectAll();
   QTest::keyClicks(box, QString::number(angle));

@@ -187,7 +187,7 @@ class Field {
   virtual QVariant typed() const = 0;  ///< As far as it was typed.
   virtual void show() = 0;
   void enter() {
-    if (touched_ && entered) entered();
+    if (is_edited() && entered) entered();
   }
 
   StepParameter parameter_;
@@ -811,7 +811,7 @@ void CardFrame::paintEvent(QPaintEvent*) {
   const QColor paper = card_ground(palette());
   const bool late =
       card_.state == StepState::out_of_date || (card_.state == StepState::done && is_edited());
-  painter.setPen(late ? QPen(state_colour(card_.state, palette()), 1.4)
+  painter.setPen(late ? QPen(state_colour(StepState::out_of_date, palette()), 1.4)
                       : QPen(mix(paper, palette().color(QPalette::Text), 0.28), 1.0));
   painter.setBrush(paper);
   painter.drawRoundedRect(QRectF(rect()).adjusted(0.7, 0.7, -0.7, -0.7), 5, 5);

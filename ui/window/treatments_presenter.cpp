@@ -647,14 +647,20 @@ void TreatmentsPresenter::split_partition() {
 }
 
 void TreatmentsPresenter::remove_small() {
+  // Begins where the smallest goes.
   constexpr double low = 2.0, high = 10000.0, usual = 20.0;
+  std::uint32_t smallest = 0;
+  for (const PartitionPtr& partition : session_->current().document.partitions.partitions)
+    if (!partition->locked && (smallest == 0 || partition->faces < smallest))
+      smallest = partition->faces;
+  const double begin = std::clamp(std::max(usual, smallest + 1.0), low, high);
   tune(
       tr("Remove partitions under"),
       [this] {
         return Operation{"remove_small_partitions",
                          {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
       },
-      TreatmentBar::Number{low, high, usual, true, tr(" faces"),
+      TreatmentBar::Number{low, high, begin, true, tr(" faces"),
                            tr("Partitions with fewer faces go. Drag or type; Enter accepts."),
                            true});
 }

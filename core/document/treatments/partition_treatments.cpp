@@ -261,9 +261,15 @@ Result<Outcome> remove_small(Ground& ground, const json& parameters, Round round
     if (partition->faces < least && !partition->locked)
       for (const FaceId f : faces_of(ground.mesh, ground.partitions, *partition))
         labels.emplace_back(f, 0u);
-  if (labels.empty() && round == Round::first)
-    return fail("No partition that is not locked has fewer than " + std::to_string(least) +
-                " faces.");
+  if (labels.empty() && round == Round::first) {
+    std::uint32_t smallest = most_faces;
+    for (const PartitionPtr& partition : ground.partitions.partitions)
+      if (!partition->locked) smallest = std::min(smallest, partition->faces);
+    return nothing_to_do(
+        "No partition that is not locked has fewer than " + std::to_string(least) + " faces" +
+        (smallest < most_faces ? "; the smallest has " + std::to_string(smallest) + "."
+                               : std::string(".")));
+  }
   ground.change(labels);
   return Outcome{};
 }
@@ -395,7 +401,8 @@ Result<json> resolve_four_sides(const Document& document, const json& given) {
           wants_cuts(partition, outlines[k]))
         ids.push_back(partition.id);
     if (ids.empty())
-      return fail("Every partition that is not locked has at most four sides: nothing to cut.");
+      return nothing_to_do(
+          "Every partition that is not locked has at most four sides: nothing to cut.");
     with_list["partitions"] = ids;
   }
   ParameterReader reader("split_to_four_sides", with_list);
@@ -503,11 +510,12 @@ Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Roun
   if (more > 0) kept += " " + std::to_string(more) + " more are like it.";
   if (!any && !kept.empty()) return fail(kept);
   if (!any && round == Round::first)
-    return fail(all.size() == 1
-                    ? "Partition " + std::to_string(*all.begin()) +
-                          " has at most four sides already: nothing to cut."
-                    : std::string("These partitions have at most four sides already: nothing to "
-                                  "cut."));
+    return nothing_to_do(
+        all.size() == 1
+            ? "Partition " + std::to_string(*all.begin()) +
+                  " has at most four sides already: nothing to cut."
+            : std::string("These partitions have at most four sides already: nothing to "
+                          "cut."));
   if (!any && outcome.adapted.empty())
     outcome.adapted = "What is found there now has at most four sides already.";
   if (!kept.empty()) outcome.adapted = kept;
@@ -545,9 +553,9 @@ Result<Outcome> paint(Ground& ground, const json& parameters, Round round) {
   if (label != 0) faces = joined_to(ground.partition_ground(), faces, label);
   std::erase_if(faces, [&](FaceId f) { return ground.partitions.label(f) == label; });
   if (faces.empty() && round == Round::first)
-    return fail(label == 0 ? "Every face under the brush is unassigned or locked already."
-                           : "The brush touches no face beside partition " + std::to_string(label) +
-                                 " that could join it.");
+    return nothing_to_do(label == 0 ? "Every face under the brush is unassigned or locked already."
+                                    : "The brush touches no face beside partition " +
+                                          std::to_string(label) + " that could join it.");
   ground.change(labelled(faces, label));
   return outcome;
 }
