@@ -28,7 +28,6 @@ struct Tube {
   float radius = 0.0F;  // negative: a pin
   float tilt = 0.0F;    // radians: of the normals against the radius, root of the mean square
 
-  /// What a face is to the axis: its normal's share along it, the direction from the axis to it.
   float along_axis(const Vector3f& normal) const { return std::abs(normal.dot(axis)); }
   Vector3f from_axis(const Vector3f& p) const {
     const Vector3f d = p - centre;
@@ -49,9 +48,9 @@ class TubeFinder {
   std::optional<Tube> fit_at(const std::vector<FaceId>& seeds, const Vector3f& place,
                              FaceWindow& window, std::vector<WindowFace>& scratch,
                              const FallingExponential& falling) const {
-    const float near = 4.0F;
+    constexpr float about = 4.0F;  // mean edges: as the windows of the jump
     scratch.clear();
-    for (const FaceId f : window.grow(seeds, place, near))
+    for (const FaceId f : window.grow(seeds, place, about))
       scratch.push_back({table_.faces[f].centre - place, normals_[f], table_.faces[f].area});
     Tube tube;
     tube.axis = frame_of(scratch, 1.0F, falling).along;
@@ -121,13 +120,17 @@ class TubeFinder {
     return tube;
   }
 
+  /// Whether a face belongs to the wall: across the axis, about as far from it, and facing as the
+  /// rest of the wall does.
   bool is_on(const Tube& tube, FaceId f) const {
+    constexpr float loose = 0.35F, slack = 0.3F;  // share of the radius, and mean edges
+    constexpr float least_facing = 0.5F;          // cosine against the radius
     if (tube.along_axis(normals_[f]) >= most_along_) return false;
     const Vector3f d = tube.from_axis(table_.faces[f].centre);
     const float length = d.norm(), size = std::abs(tube.radius);
-    if (std::abs(length - size) > 0.35F * size + 0.3F) return false;
+    if (std::abs(length - size) > loose * size + slack) return false;
     const float outwards = d.dot(normals_[f]) / std::max(length, 1e-6F);
-    return (tube.radius > 0.0F ? -outwards : outwards) > 0.5F;
+    return (tube.radius > 0.0F ? -outwards : outwards) > least_facing;
   }
 
  private:
