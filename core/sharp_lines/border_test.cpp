@@ -101,6 +101,8 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
   const auto n = static_cast<std::ptrdiff_t>(chain.path.size());
   const std::ptrdiff_t range =
       chain.closed ? std::clamp(n / 8, std::ptrdiff_t{1}, smoothing) : smoothing;
+  // Not the far side of a small ring.
+  const std::ptrdiff_t reach = chain.closed ? std::min(n / 4, own_reach) : own_reach;
   for (std::size_t place = from; place < to; ++place) {
     const auto i = static_cast<std::ptrdiff_t>(place);
     const HalfEdgeId h = chain.path[place];
@@ -156,7 +158,7 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
       if (!own && chain_of_[nearest] == number) {
         auto apart = std::abs(static_cast<std::ptrdiff_t>(index_of_[nearest]) - i);
         if (chain.closed) apart = std::min(apart, n - apart);
-        own = apart <= own_reach;
+        own = apart <= reach;
       }
       if (t > far_side) {
         sums.all_far[side] += w;

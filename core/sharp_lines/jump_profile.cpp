@@ -112,6 +112,16 @@ class Line {
     i = std::clamp<std::ptrdiff_t>(i, 0, size());
     return i == size() ? mesh_.to(path_.back()) : mesh_.from(at(i));
   }
+  /// Whether the faces about place `to` may be those of place `from`: as in the border test, no
+  /// farther along, nor on the far side of a small ring.
+  bool is_own(std::ptrdiff_t from, std::ptrdiff_t to) const {
+    std::ptrdiff_t apart = std::abs(to - from), reach = own_reach;
+    if (mesh_.to(path_.back()) == mesh_.from(path_.front())) {
+      apart = std::min(apart, std::abs(size() - apart));
+      reach = std::min(reach, size() / 4);
+    }
+    return apart <= reach;
+  }
   /// Where an edge is on the line; no_place: elsewhere.
   std::ptrdiff_t place_of(EdgeId e) const {
     const auto found = std::ranges::find(path_, e, [](HalfEdgeId h) { return h >> 1; });
@@ -326,7 +336,7 @@ class Sums {
       least = distance;
       nearest = e;
     }
-    return nearest == no_id || std::abs(line_.place_of(nearest) - place.index) <= own_reach;
+    return nearest == no_id || line_.is_own(place.index, line_.place_of(nearest));
   }
 
   void grow_side(const Place& place, const Vector3f& leftwards, FaceId seed, int sign,

@@ -109,10 +109,15 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
   Result<NormalJump> jump =
       measure_normal_jump(mesh, table, normals, options.jump, context.part(0.2, 0.7));
   if (!jump) return tl::unexpected<Error>(jump.error());
+  std::vector<std::uint32_t> tubes(table.size(), no_id);
+  if (options.tubes) {
+    tubes = find_tight_tubes(mesh, table, normals, *jump, options.tight_tubes);
+    clear_jump_on(mesh, tubes, *jump);
+  }
   LineRegionOptions regions = options.regions;
   regions.first_cut += rise * options.first_cut_rise;
   Result<std::vector<BorderEdge>> borders =
-      find_line_regions(mesh, table, normals, *jump, regions, context.part(0.7, 0.95));
+      find_line_regions(mesh, table, normals, *jump, tubes, regions, context.part(0.7, 0.95));
   if (!borders) return tl::unexpected<Error>(borders.error());
   if (options.exact)
     *borders = merge_creases(

@@ -15,12 +15,14 @@
 #include "core/sharp_lines/line_regions.h"
 #include "core/sharp_lines/normal_jump.h"
 #include "core/sharp_lines/normal_noise.h"
+#include "core/sharp_lines/tight_tubes.h"
 
 namespace arris {
 
 /// Each idea can be switched off, to measure what it buys (tests/bench/accuracy).
 struct LineEvidenceOptions {
   NormalJumpOptions jump;
+  TightTubeOptions tight_tubes;
   LineRegionOptions regions;
   ExactCreaseOptions creases;
   CrestOptions crests;
@@ -33,6 +35,7 @@ struct LineEvidenceOptions {
   float most_rise = 9.0F;       // and at most;
   float first_cut_rise = 0.8F;  // the first cut of the regions rises by this share of that
   bool exact = true;            // creases of places without noise by their own angle
+  bool tubes = true;            // walls of small holes and pins are regions from the start
   bool open = true;             // lines that part no regions, along crests of the jump
 };
 

@@ -116,6 +116,18 @@ FaceRegions first_cut(const FaceTable& table, const std::vector<float>& jump,
   return result;
 }
 
+/// Makes each tube a region of its own, whatever the faces on it were of. False where there is
+/// none.
+bool set_apart(const std::vector<std::uint32_t>& tubes, FaceRegions& regions) {
+  bool any = false;
+  for (FaceId f = 0; f < tubes.size(); ++f)
+    if (tubes[f] != no_id) {
+      regions.of_face[f] = regions.count + tubes[f];
+      any = true;
+    }
+  return any;
+}
+
 /// A border between two regions while they are joined by the test.
 struct TestedBorder {
   std::vector<std::uint32_t> chains;  // some of them may have been joined to others
@@ -330,6 +342,7 @@ std::vector<std::uint8_t> vertices_near(const Mesh& mesh, const std::vector<Bord
 Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTable& table,
                                                   const std::vector<Eigen::Vector3f>& normals,
                                                   const NormalJump& jump,
+                                                  const std::vector<std::uint32_t>& tubes,
                                                   const LineRegionOptions& options,
                                                   const Context& context) {
   std::vector<std::array<FaceId, 2>> edge_faces(mesh.edge_count());
@@ -354,6 +367,10 @@ Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTa
   regions =
       first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(regions), options, nullptr);
   smooth_borders(table, edge_length, options.smoothing, regions.of_face);
+  if (set_apart(tubes, regions)) {
+    regions = connected_regions(table, regions.of_face);
+    smooth_borders(table, edge_length, options.smoothing, regions.of_face);
+  }
   if (context.cancelled()) return cancelled();
   context.report(0.7, "borders");
   TestedJoining joining(mesh, table, normals, regions, edge_length, options);

@@ -43,10 +43,12 @@ std::vector<std::uint8_t> vertices_near(const Mesh& mesh, const std::vector<Bord
 ///
 /// A watershed of the normal jump gives the first regions; weak borders go by the jump; the rest
 /// are tested as whole borders (BorderTest), and the weakest goes, again and again, while what
-/// became longer is tested again. Errors: cancelled.
+/// became longer is tested again. `tubes`: per face, as by find_tight_tubes(); each is a region of
+/// its own before borders are tested. Errors: cancelled.
 Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTable& table,
                                                   const std::vector<Eigen::Vector3f>& normals,
                                                   const NormalJump& jump,
+                                                  const std::vector<std::uint32_t>& tubes,
                                                   const LineRegionOptions& options,
                                                   const Context& context);
 

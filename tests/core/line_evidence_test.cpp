@@ -125,6 +125,61 @@ TEST(NormalJump, AFilletIsNoLineAndAFoldIs) {
   }
 }
 
+/// The outline (r, z), run through and closed, turned about the z axis, in triangles of about 1 mm.
+Triangles revolved(const std::vector<Eigen::Vector2d>& corners) {
+  Triangles part;
+  std::vector<std::pair<VertexId, VertexId>> rings;  // first vertex and number of vertices of each
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector2d from = corners[k], to = corners[(k + 1) % corners.size()];
+    const double steps = std::ceil((to - from).norm() / 0.87);
+    for (double i = 0.0; i < steps; ++i) {
+      const Eigen::Vector2d p = from + (to - from) * (i / steps);
+      const auto count = static_cast<VertexId>(std::round(2.0 * std::numbers::pi * p.x()));
+      rings.emplace_back(static_cast<VertexId>(part.points.size()), count);
+      const double start = 0.5 * static_cast<double>(rings.size() % 2);
+      for (VertexId j = 0; j < count; ++j) {
+        const double a = 2.0 * std::numbers::pi * (j + start) / count;
+        part.points.emplace_back(p.x() * std::cos(a), p.x() * std::sin(a), p.y());
+      }
+    }
+  }
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const auto [a, na] = rings[k];
+    const auto [b, nb] = rings[(k + 1) % rings.size()];
+    const auto at = [](VertexId first, VertexId count, VertexId i) { return first + i % count; };
+    for (VertexId i = 0, j = 0; i < na || j < nb;) {
+      const VertexId p = at(a, na, i), q = at(b, nb, j);
+      if (j == nb || (i < na && (i + 0.5) / na <= (j + 0.5) / nb)) {
+        part.triangles.push_back({p, at(a, na, i + 1), q});
+        ++i;
+      } else {
+        part.triangles.push_back({p, at(b, nb, j + 1), q});
+        ++j;
+      }
+    }
+  }
+  return part;
+}
+
+TEST(NormalJump, FindsTheRimsOfHolesOfFewEdges) {
+  for (const double radius : {1.3, 1.6, 2.0, 2.4, 3.0})
+    for (const double noise : {0.05, 0.1}) {
+      const Triangles washer = revolved({{radius, 0.0}, {14.0, 0.0}, {14.0, 7.0}, {radius, 7.0}});
+      const Document document = lined(noisy(washer, noise, 5));
+      EXPECT_EQ(document.lines.lines.size(), 4u) << radius << " " << noise;
+      for (const LinePtr& line : document.lines.lines) {
+        EXPECT_TRUE(line->closed) << radius << " " << noise;
+        EXPECT_TRUE(line->convex());
+        for (const VertexId v : line->vertices) {
+          const Point& p = document.mesh->point(v);
+          const double r = p.head<2>().norm();
+          EXPECT_LT(std::min(std::abs(r - radius), std::abs(r - 14.0)), 1.0);
+          EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 7.0)), 1.0);
+        }
+      }
+    }
+}
+
 TEST(NormalJump, ALineEndsWhereItsJumpFadesOut) {
   // A ridge whose angle falls from 70 degrees to nothing along y: the line parts no areas.
   constexpr double size = 60.0;

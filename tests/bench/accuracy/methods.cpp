@@ -138,6 +138,7 @@ constexpr Idea ideas[] = {
     {"no closing", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.gap = 0.0F; }},
     {"no filter", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.filter.rounds = 0; }},
     {"no rise with noise", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.rise = 0.0F; }},
+    {"no tubes", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.tubes = false; }},
     {"no crests", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.open = false; }},
     {"no exact creases", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.exact = false; }},
 };

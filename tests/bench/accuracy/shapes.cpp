@@ -93,6 +93,31 @@ CleanPart make_rib(double edge, double width) {
                  std::move(curves));
 }
 
+/// A plate, eight edges thick, with a round hole of `radius` mm through it.
+CleanPart make_hole(double edge, double radius) {
+  const Point low(-20.0, -16.0, 0.0), high(20.0, 16.0, 8.0 * edge);
+  const Solid drill = cylinder(radius, 7);
+  const Solid solid = common({block(low, high, block_faces), [drill](const Point& p) {
+                                const SurfaceValue value = drill(p);
+                                return SurfaceValue{-value.distance, value.face};
+                              }});
+  std::vector<TrueCurve> curves = block_edges(low, high);
+  for (const double z : {low.z(), high.z()}) curves.push_back(circle(radius, z, 90.0));
+  return scanned(solid, low, high, edge, std::move(curves));
+}
+
+/// A plate with a round pin of `radius` mm on it, eight edges high.
+CleanPart make_pin(double edge, double radius) {
+  const Point low(-20.0, -16.0, 0.0), high(20.0, 16.0, 10.0);
+  const double top = high.z() + 8.0 * edge;
+  const Solid solid = united({block(low, high, block_faces),
+                              common({cylinder(radius, 7), half_space(low, -Point::UnitZ(), 5),
+                                      half_space({0.0, 0.0, top}, Point::UnitZ(), 8)})});
+  std::vector<TrueCurve> curves = block_edges(low, high);
+  for (const double z : {high.z(), top}) curves.push_back(circle(radius, z, 90.0));
+  return scanned(solid, low, {high.x(), high.y(), top}, edge, std::move(curves));
+}
+
 /// A block with one edge rounded by a fillet. At a radius of one edge of the mesh a scan shows no
 /// more than a sharp line, at two either, from four on a surface of its own.
 CleanPart make_fillet(double edge, double edges) {
@@ -360,6 +385,8 @@ std::vector<Shape> scanned_shapes() {
   add("step", {2.0, 4.0, 8.0}, make_step);
   add("chamfer", {2.0, 3.0, 4.0}, make_chamfer);
   add("rib", {2.0, 3.0, 4.0}, make_rib);
+  add("hole", {1.5, 2.0, 3.0, 4.0}, make_hole);
+  add("pin", {1.5, 2.0, 3.0, 4.0}, make_pin);
   for (const double radius : {1.0, 2.0, 4.0, 8.0})
     shapes.push_back({"fillet_" + number_text(radius),
                       [radius](double edge) { return make_fillet(edge, radius); }});
