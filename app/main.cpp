@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
         options.size = {width, height};
         main_window.save_picture(picture, options, &error);
       }
+      session.close();  // nothing that the next start would have to offer
       QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
     };
     const auto save = [&, shoot_now] {
