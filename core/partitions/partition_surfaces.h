@@ -21,9 +21,9 @@ struct PartitionSurface {
   double tolerance = 0.0;  ///< Three times the noise of the scan.
 };
 
-/// Fits a surface to each partition listed, in their order, whatever they were found by: least squares of
-/// distances and normals over the vertices inside it, those beside lines and other partitions left
-/// out where enough others are there. Errors: cancelled.
+/// Fits a surface to each partition listed, in their order, whatever they were found by: least
+/// squares of distances and normals over the vertices inside it, those beside lines and other
+/// partitions left out where enough others are there. Errors: cancelled.
 Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
                                                              const SharpLines& lines,
                                                              const Partitions& partitions,

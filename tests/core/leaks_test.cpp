@@ -172,8 +172,8 @@ TEST(Leaks, CanBeCancelled) {
   const LeakingBox box({{4.0, 6.0}});
   std::stop_source source;
   source.request_stop();
-  const auto leaks = find_leaks(*box.document.mesh, box.document.lines,
-                                box.document.partitions, {}, Context({}, source.get_token()));
+  const auto leaks = find_leaks(*box.document.mesh, box.document.lines, box.document.partitions, {},
+                                Context({}, source.get_token()));
   ASSERT_FALSE(leaks);
   EXPECT_TRUE(leaks.error().cancelled);
 }
