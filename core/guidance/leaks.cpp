@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
@@ -41,25 +41,6 @@ struct Gap {
 struct Link {
   std::uint32_t a, b;
   std::vector<std::uint32_t> gaps;
-};
-
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 /// Gaps from one loose end through each of the large partitions it lies in.
@@ -165,7 +146,7 @@ class PartedPartition {
   /// the longest first, what does not join them: the gaps that stay closed part the partition in
   /// two. Where g alone does it, all others open again.
   std::optional<Parted> weigh(std::uint32_t g) const {
-    Groups groups(areas_.size());
+    DisjointSets groups(areas_.size());
     for (const Link& link : links_)
       if (link.gaps.front() > g) groups.join(link.a, link.b);
     const auto parting = std::ranges::find_if(links_of_[g], [&](std::uint32_t l) {

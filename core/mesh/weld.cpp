@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/disjoint_sets.h"
+
 namespace arris {
 
 Welder::Welder(std::vector<Point>& points, std::size_t expected) : points_(points) {
@@ -95,25 +97,6 @@ void keep_single(std::vector<Pair>& pairs) {
   pairs.resize(kept);
 }
 
-/// Vertices in groups, each named by its smallest.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 std::uint64_t cuts_closed_by(const std::vector<VertexId>& target,
@@ -186,7 +169,7 @@ BorderWeld weld_border(const Mesh& mesh, const std::vector<Point>& points,
   for (std::uint32_t k = 0; k < vertices.size(); ++k)
     cells.push_back({cell_of(points[vertices[k]]), k});
   std::sort(cells.begin(), cells.end());
-  Groups groups(vertices.size());
+  DisjointSets groups(vertices.size());
   // Cells that hold very many are no noise of the last digit; their vertices are left alone.
   constexpr std::size_t most_in_cell = 64;
   for (const Cell& cell : cells)

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
 
+#include "core/base/disjoint_sets.h"
 #include "core/simplification/distance.h"
 
 namespace arris {
@@ -74,12 +74,7 @@ std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
                                                const ChunkedArray<std::uint32_t>& labels,
                                                std::uint32_t label,
                                                const std::vector<FaceId>& starts) {
-  std::vector<std::uint32_t> parent(starts.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-  };
+  DisjointSets joined(starts.size());
   std::unordered_map<FaceId, std::uint32_t> front_of;
   std::vector<std::queue<FaceId>> fronts(starts.size());
   for (std::uint32_t k = 0; k < starts.size(); ++k) {
@@ -90,7 +85,7 @@ std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
   for (;;) {
     std::fill(grows.begin(), grows.end(), false);
     for (std::uint32_t k = 0; k < fronts.size(); ++k)
-      if (!fronts[k].empty()) grows[root(k)] = true;
+      if (!fronts[k].empty()) grows[joined.find(k)] = true;
     if (std::count(grows.begin(), grows.end(), true) <= 1) break;
     for (std::uint32_t k = 0; k < fronts.size(); ++k) {
       if (fronts[k].empty()) continue;
@@ -102,13 +97,13 @@ std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
         const auto [it, fresh] = front_of.try_emplace(g, k);
         if (fresh)
           fronts[k].push(g);
-        else if (root(k) != root(it->second))
-          parent[std::max(root(k), root(it->second))] = std::min(root(k), root(it->second));
+        else
+          joined.join(k, it->second);
       });
     }
   }
   std::map<std::uint32_t, std::vector<FaceId>> pieces;
-  for (const auto& [f, k] : front_of) pieces[root(k)].push_back(f);
+  for (const auto& [f, k] : front_of) pieces[joined.find(k)].push_back(f);
   std::vector<std::vector<FaceId>> result;
   std::size_t largest = 0;
   bool rest_grows = false;

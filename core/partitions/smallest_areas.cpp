@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include <tbb/parallel_sort.h>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -93,12 +93,7 @@ FaceRegions smallest_areas(const Mesh& mesh, const FaceTable& table,
                         b = regions.of_face[edge_faces[e][1]];
     if (a != b) joining.border(a, b).add(finer * kinks.at_edge[e], edge_length[e]);
   }
-  std::vector<std::uint32_t> parent(regions.count);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t r) {
-    while (parent[r] != r) r = parent[r] = parent[parent[r]];
-    return r;
-  };
+  DisjointSets joined(regions.count);
   const float least_area = options.first_area * mean_face_area;
   joining.run(
       finer * options.first_cut,
@@ -107,8 +102,8 @@ FaceRegions smallest_areas(const Mesh& mesh, const FaceTable& table,
         const float smaller = std::min(joining.area(a), joining.area(b));
         return smaller < least_area ? cost * smaller / least_area : cost;
       },
-      [&](const auto& join, const HeightHistogram&) { parent[join.gone] = join.into; });
-  for (std::uint32_t& r : regions.of_face) r = root(r);
+      [&](const auto& join, const HeightHistogram&) { joined.join(join.gone, join.into); });
+  for (std::uint32_t& r : regions.of_face) r = joined.find(r);
 
   // What lies beside lines, ring by ring.
   std::vector<FaceId> front;

@@ -1,7 +1,8 @@
 #include "core/sharp_lines/watershed.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "core/base/disjoint_sets.h"
 
 namespace arris {
 
@@ -10,12 +11,7 @@ FaceRegions watershed(const FaceTable& table, const std::vector<float>& height,
                       const std::vector<std::array<FaceId, 2>>& edge_faces,
                       const WatershedOptions& options) {
   const std::size_t faces = table.size();
-  std::vector<FaceId> parent(faces);
-  std::iota(parent.begin(), parent.end(), FaceId{0});
-  const auto root = [&](FaceId f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  DisjointSets basins(faces);
   struct Basin {
     float floor, area;
   };
@@ -28,20 +24,20 @@ FaceRegions watershed(const FaceTable& table, const std::vector<float>& height,
   }
   const float least_area = options.area * mean_face_area;
   for (const EdgeId e : order) {
-    FaceId a = root(edge_faces[e][0]), b = root(edge_faces[e][1]);
+    FaceId a = basins.find(edge_faces[e][0]), b = basins.find(edge_faces[e][1]);
     if (a == b) continue;
     const auto stays = [&](const Basin& x) {
       return height[e] - x.floor > options.depth && x.area > least_area;
     };
     if (stays(basin[a]) && stays(basin[b])) continue;
     if (a > b) std::swap(a, b);
-    parent[b] = a;
+    basins.join(a, b);
     basin[a] = {std::min(basin[a].floor, basin[b].floor), basin[a].area + basin[b].area};
   }
   FaceRegions result;
   result.of_face.assign(faces, no_id);
   for (FaceId f = 0; f < faces; ++f) {  // a root is the lowest face of its basin
-    const FaceId r = root(f);
+    const FaceId r = basins.find(f);
     if (r == f) result.of_face[f] = result.count++;
     result.of_face[f] = result.of_face[r];
   }

@@ -376,6 +376,15 @@ testing::Triangles cubes_at(const std::set<std::array<int, 3>>& cells) {
   return body;
 }
 
+/// Cubes that make one body without a border, with so many edges of four faces, all of them paired.
+void expect_one_closed_body(const std::set<std::array<int, 3>>& cells, std::size_t paired) {
+  const LoadReport report = joined(cubes_at(cells))->report;
+  EXPECT_EQ(report.non_manifold_edges.size(), paired);
+  EXPECT_EQ(report.paired_edges.size(), paired);
+  EXPECT_EQ(report.border_edges, 0u);
+  EXPECT_EQ(report.components, 1u);
+}
+
 TEST(TouchingBodies, OneBodyThatTouchesItselfAlongARowOfEdgesStaysClosed) {
   // A ring whose ends meet along an edge: the pairs are told by the wedges they enclose.
   std::set<std::array<int, 3>> cells;
@@ -383,11 +392,7 @@ TEST(TouchingBodies, OneBodyThatTouchesItselfAlongARowOfEdgesStaysClosed) {
     for (const auto& [i, j] :
          std::vector<std::array<int, 2>>{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 1}})
       cells.insert({i, j, k});
-  const LoadReport report = joined(cubes_at(cells))->report;
-  EXPECT_EQ(report.non_manifold_edges.size(), 3u);
-  EXPECT_EQ(report.paired_edges.size(), 3u);
-  EXPECT_EQ(report.border_edges, 0u);
-  EXPECT_EQ(report.components, 1u);
+  expect_one_closed_body(cells, 3);
 }
 
 TEST(TouchingBodies, AnEdgeBetweenTwoSlabsIsPairedTheOtherWay) {
@@ -397,11 +402,7 @@ TEST(TouchingBodies, AnEdgeBetweenTwoSlabsIsPairedTheOtherWay) {
   for (const int k : {-1, 1})
     for (const int i : {0, 1})
       for (const int j : {0, 1}) cells.insert({i, j, k});
-  const LoadReport report = joined(cubes_at(cells))->report;
-  EXPECT_EQ(report.non_manifold_edges.size(), 1u);
-  EXPECT_EQ(report.paired_edges.size(), 1u);
-  EXPECT_EQ(report.border_edges, 0u);
-  EXPECT_EQ(report.components, 1u);
+  expect_one_closed_body(cells, 1);
 }
 
 TEST(TouchingBodies, AnyHeapOfCubesCanBeHeld) {

@@ -7,43 +7,9 @@
 #include <QVariantMap>
 #include <QWidget>
 
+#include "ui/panels/step_card.h"
+
 namespace arris::ui {
-
-/// A parameter of a step as the panel shows it.
-struct StepParameter {
-  /// scale: a real number on a logarithmic slider, from `least` to `most`.
-  enum class Kind { real, whole, choice, intervals, scale };
-  QString key;    ///< As in the operation: "angle".
-  QString label;  ///< "Angle TV_IH".
-  QString tooltip;
-  Kind kind = Kind::real;
-  QVariant value;  ///< double, int, choice key (QString), or for intervals a QVariantList of
-                   ///< [min, max] QVariantLists (max infinite: no upper end).
-  double least = 0.0, most = 0.0;
-  int decimals = 2;
-  QString suffix;       ///< " °", " mm", " 1/mm²".
-  QStringList choices;  ///< Keys.
-  QStringList choice_labels;
-  /// Key of the choice that this parameter hangs on; empty: on none. It is shown, and among the
-  /// values, where `value_of` has the chosen key, and takes that value when the choice is made
-  /// unless it was edited. `value` does not count then.
-  QString hangs_on;
-  QVariantMap value_of;
-};
-
-enum class StepState { unavailable, not_run, done, out_of_date };
-
-/// A step of figure 2 as the panel shows it.
-struct StepCard {
-  QString name;     ///< Operation name: "find_sharp_lines".
-  QString title;    ///< "Sharp lines".
-  QString tooltip;  ///< What the step does.
-  StepState state = StepState::not_run;
-  QString result;  ///< "137 lines, 1,203 edges".
-  QString time;    ///< "0.12 s".
-  std::vector<StepParameter> parameters;
-  bool runnable = true;  ///< False: no Run button.
-};
 
 /// The left panel: the paper's figure 2 from top to bottom. A card that is `unavailable` (a phase
 /// of a later version) shows its place and its tooltip and has no controls.
