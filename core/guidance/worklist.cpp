@@ -31,8 +31,6 @@ constexpr double walk_share = 0.5, walk_cosine = 0.5;
 /// where there is none, a line just stops where it is sharper than this many times TV_IH over its
 /// last mean edges: all others fade out, which is no fault.
 constexpr double least_sharpness = 0.4, abrupt = 1.5, abrupt_edges = 3.0;
-/// And where it arrives, or goes on for this many mean edges.
-constexpr double worth_going = 2.0;
 /// Places looked at from one loose end, the cheapest first.
 constexpr std::size_t most_arrivals = 8;
 
@@ -254,7 +252,7 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
           std::erase_if(item.continuations,
                         [](const Continuation& way) { return way.sharpness < least_sharpness; });
           if (item.continuations.empty()) {
-            // No sentence: nothing to do.
+            // Without a sentence it is left out.
             item.sentence =
                 stops_sharp(document, *measures, *end, angle)
                     ? item.sentence + ", sharp to its end; nothing sharp goes on from there."

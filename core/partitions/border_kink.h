@@ -60,8 +60,8 @@ BorderSums measure_path(const Mesh& mesh, const FaceTable& table,
                         const std::vector<std::uint8_t>& skipped, const BorderKinkOptions& options,
                         FaceWindow& window);
 
-/// The kink without what the noise of the normals (degrees) adds to it over so many faces as the
-/// sums read, `most_faces` at most.
+/// The kink in degrees without what the noise of the normals (degrees) adds to it over so many
+/// faces as the sums read, `most_faces` at most; 0 where the noise explains all of it.
 float clear_kink(const BorderSums& sums, const BorderKinkOptions& options, float noise,
                  float most_faces);
 

@@ -703,7 +703,8 @@ void MainWindow::show_load_report() {
                counted(report.file_vertices, tr("vertices")));
   text += "\n" + tr("The mesh has %1, %2, %3 and Euler number %4.")
                      .arg(counted(report.faces, tr("triangles")),
-                          counted(report.components, tr("components")),
+                          report.components == 1 ? tr("1 component")
+                                                 : counted(report.components, tr("components")),
                           counted(report.border_edges, tr("border edges")))
                      .arg(report.euler_number);
   QMessageBox box(QMessageBox::Information, tr("Load report"), text, QMessageBox::Ok, this);
