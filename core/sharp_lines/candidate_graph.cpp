@@ -1,6 +1,7 @@
 #include "core/sharp_lines/candidate_graph.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <unordered_map>
@@ -16,7 +17,8 @@ bool may_be_line(const BorderPlace& place, const LineChoiceOptions& options) {
 
 }  // namespace
 
-CandidateGraph::CandidateGraph(const Mesh& mesh, double unit, std::vector<BorderEdge> edges)
+CandidateGraph::CandidateGraph(const Mesh& mesh, const FaceTable& table,
+                               std::vector<BorderEdge> edges)
     : edges_(std::move(edges)) {
   std::vector<VertexId> vertices;
   for (const BorderEdge& edge : edges_)
@@ -31,7 +33,10 @@ CandidateGraph::CandidateGraph(const Mesh& mesh, double unit, std::vector<Border
   for (const BorderEdge& edge : edges_) {
     const EdgeVertices& ends = mesh.edge(edge.edge);
     ends_.push_back({number(ends[0]), number(ends[1])});
-    length_.push_back(static_cast<float>(mesh.edge_length(edge.edge) / unit));
+    length_.push_back(static_cast<float>(mesh.edge_length(edge.edge) / table.unit));
+    const Eigen::Vector3f &from = table.points[ends[0]], &to = table.points[ends[1]];
+    middle_.push_back(0.5F * (from + to));
+    direction_.push_back((to - from).stableNormalized());
     for (const std::uint32_t v : ends_.back()) ++starts_[v + 1];
   }
   for (std::size_t v = 0; v < vertices.size(); ++v) starts_[v + 1] += starts_[v];
@@ -49,7 +54,8 @@ const BorderEdge* CandidateGraph::find(EdgeId e) const {
 }
 
 std::size_t CandidateGraph::bytes() const {
-  return edges_.size() * (sizeof(BorderEdge) + sizeof(float) + sizeof ends_[0] + 2 * sizeof(Half)) +
+  return edges_.size() * (sizeof(BorderEdge) + sizeof(float) + sizeof ends_[0] +
+                          2 * (sizeof middle_[0] + sizeof(Half))) +
          starts_.size() * sizeof starts_[0];
 }
 
@@ -74,9 +80,59 @@ std::vector<EdgeId> CandidateGraph::choose(const LineChoiceOptions& options) con
   return result;
 }
 
+/// Tells which candidates run beside one of the chosen ones, by a grid of their middles.
+class CandidateGraph::Beside {
+ public:
+  /// `reach`: mean edges; 0: nothing is beside anything.
+  Beside(const CandidateGraph& graph, const std::vector<std::uint8_t>& chosen, float reach)
+      : graph_(graph), reach_(reach) {
+    for (std::uint32_t e = 0; reach > 0.0F && e < chosen.size(); ++e)
+      if (chosen[e]) cells_.emplace_back(cell(graph.middle_[e], {0, 0, 0}), e);
+    std::sort(cells_.begin(), cells_.end());
+  }
+
+  bool operator()(std::uint32_t e) const {
+    if (cells_.empty()) return false;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const std::uint64_t key = cell(graph_.middle_[e], {x, y, z});
+          for (auto it = std::lower_bound(cells_.begin(), cells_.end(), std::pair{key, 0U});
+               it != cells_.end() && it->first == key; ++it)
+            if (is_beside(e, it->second)) return true;
+        }
+    return false;
+  }
+
+ private:
+  /// What goes on where a line ends is not beside it.
+  bool is_beside(std::uint32_t e, std::uint32_t line) const {
+    constexpr float along = 0.75F;
+    const Eigen::Vector3f offset = graph_.middle_[e] - graph_.middle_[line];
+    return offset.squaredNorm() < reach_ * reach_ &&
+           std::abs(offset.dot(graph_.direction_[line])) <=
+               along * std::max(1.0F, graph_.length_[line]);
+  }
+  std::uint64_t cell(const Eigen::Vector3f& place, const std::array<int, 3>& step) const {
+    constexpr float most = 1 << 20;
+    std::uint64_t key = 0;
+    for (int k = 0; k < 3; ++k) {
+      const float at = std::clamp(std::floor(place[k] / reach_), 1.0F - most, most - 2.0F);
+      key = key << 21 | static_cast<std::uint64_t>(static_cast<std::int64_t>(at + most) +
+                                                   step[static_cast<std::size_t>(k)]);
+    }
+    return key;
+  }
+
+  const CandidateGraph& graph_;
+  float reach_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> cells_;  // and the chosen candidate there
+};
+
 void CandidateGraph::add_slits(const LineChoiceOptions& options,
                                std::vector<std::uint8_t>& chosen) const {
   constexpr float clear_ratio = 0.65F;  // of the jump to the turn: nothing like a fillet
+  const Beside beside(*this, chosen, options.beside);
   // Connected stretches of what is as sharp as a line without parting two regions.
   std::vector<std::uint8_t> seen(edges_.size(), 0);
   std::vector<std::uint32_t> group;
@@ -93,7 +149,7 @@ void CandidateGraph::add_slits(const LineChoiceOptions& options,
     float length = 0.0F, sharpest = 0.0F;  // degrees
     for (std::size_t k = 0; k < group.size(); ++k) {
       const float strength = edges_[group[k]].place.value / options.angle;
-      length += length_[group[k]] * strength * strength;
+      if (!beside(group[k])) length += length_[group[k]] * strength * strength;
       sharpest = std::max(sharpest, edges_[group[k]].place.value);
       for (const std::uint32_t v : ends_[group[k]])
         for (const Half& half : around(v))

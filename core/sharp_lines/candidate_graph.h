@@ -17,6 +17,7 @@ struct LineChoiceOptions {
   // own jump alone, so it has to be the longer the less it jumps: its length counts by the square
   // of its jump over the threshold.
   float least_slit = 16.0F;
+  float beside = 2.5F;       // what runs this near to a line doubles it: its length counts nothing
   float clear_slit = 38.0F;  // degrees that it reaches somewhere
   float gap = 4.0F;          // stretches of border shorter than this are closed between lines
   float spur = 3.0F;         // branches with a free end, and rungs between lines, under this go
@@ -29,7 +30,7 @@ class CandidateGraph {
  public:
   CandidateGraph() = default;
   /// `edges`: by increasing number.
-  CandidateGraph(const Mesh& mesh, double unit, std::vector<BorderEdge> edges);
+  CandidateGraph(const Mesh& mesh, const FaceTable& table, std::vector<BorderEdge> edges);
 
   const std::vector<BorderEdge>& edges() const { return edges_; }
   /// The candidate of an edge; null: none.
@@ -47,6 +48,7 @@ class CandidateGraph {
   std::span<const Half> around(std::uint32_t v) const {
     return {halves_.data() + starts_[v], halves_.data() + starts_[v + 1]};
   }
+  class Beside;
   std::size_t degree(std::uint32_t v, const std::vector<std::uint8_t>& chosen) const;
   void add_slits(const LineChoiceOptions& options, std::vector<std::uint8_t>& chosen) const;
   void close_gaps(float most, std::vector<std::uint8_t>& chosen) const;
@@ -54,7 +56,8 @@ class CandidateGraph {
   void drop_short(float least, std::vector<std::uint8_t>& chosen) const;
 
   std::vector<BorderEdge> edges_;
-  std::vector<float> length_;  // in mean edges
+  std::vector<float> length_;  // in mean edges, like places
+  std::vector<Eigen::Vector3f> middle_, direction_;
   std::vector<std::array<std::uint32_t, 2>> ends_;
   std::vector<std::uint32_t> starts_;
   std::vector<Half> halves_;

@@ -135,7 +135,7 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
     if (border.exact || border.place.value > 0.0F)
       evidence->jump[border.edge] =
           border.place.turn >= 0.0F ? border.place.value : -border.place.value;
-  evidence->candidates = CandidateGraph(mesh, table.unit, std::move(*borders));
+  evidence->candidates = CandidateGraph(mesh, table, std::move(*borders));
   evidence->measures = as_measures(mesh, *jump, evidence->jump, evidence->candidates.edges());
   context.report(1.0, "line evidence");
   if (context.cancelled()) return cancelled();

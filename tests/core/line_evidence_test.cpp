@@ -298,6 +298,39 @@ TEST(LineEvidence, RegionBordersAtAThresholdAreAmongThoseOfALowerOne) {
   }
 }
 
+TEST(LineEvidence, WhatRunsBesideALineDoublesItAndIsNone) {
+  // On a plate: a border between regions along y = 20, and what parts no regions beside it, away
+  // from it, and where it ends.
+  const MeshPtr mesh = mesh_of(noisy_plane(40.0, 1.0, 0.0, 0.0, 1));
+  const FaceTable table(*mesh);
+  std::vector<BorderEdge> edges;
+  const auto row = [&](double y, double from, double to, float height) {
+    std::vector<EdgeId> added;
+    for (EdgeId e = 0; e < mesh->edge_count(); ++e) {
+      const Point a = mesh->point(mesh->edge(e)[0]), b = mesh->point(mesh->edge(e)[1]);
+      const double middle = 0.5 * (a.x() + b.x());
+      if (a.y() != b.y() || std::abs(a.y() - y) > 0.5 || middle < from || middle > to) continue;
+      edges.push_back({e, height, {50.0F, 50.0F, 50.0F}});
+      added.push_back(e);
+    }
+    return added;
+  };
+  const Point corner = corner_of(noisy_plane(40.0, 1.0, 0.0, 0.0, 1));
+  const auto x = [&](double at) { return corner.x() + at; };
+  const double y = corner.y() + 20.0;
+  std::vector<EdgeId> lines = row(y, x(2.0), x(28.0), 50.0F);
+  const std::vector<EdgeId> beside = row(y + 2.0, x(2.0), x(24.0), 0.0F);
+  const std::vector<EdgeId> away = row(y + 6.0, x(2.0), x(24.0), 0.0F);
+  const std::vector<EdgeId> beyond = row(y, x(28.0), x(38.0), 0.0F);
+  ASSERT_GT(std::min({lines.size(), beside.size(), away.size(), beyond.size()}), 8u);
+  std::sort(edges.begin(), edges.end(),
+            [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; });
+  const std::vector<EdgeId> chosen = CandidateGraph(*mesh, table, edges).choose({});
+  for (const auto* more : {&away, &beyond}) lines.insert(lines.end(), more->begin(), more->end());
+  std::sort(lines.begin(), lines.end());
+  EXPECT_EQ(chosen, lines);
+}
+
 TEST(LineEvidence, BoundsAndSignChooseLines) {
   const Triangles part = noisy(stepped_plate(20.0, 40.0, 8.0, 1.0), 0.05, 2);
   const Document opened = document_of(part);

@@ -135,6 +135,7 @@ constexpr Idea ideas[] = {
     {"no teeth taken off",
      [](LineEvidenceOptions& o, LineChoiceOptions&) { o.regions.smoothing = 0; }},
     {"no slits", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.least_slit = 0.0F; }},
+    {"slits beside lines", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.beside = 0.0F; }},
     {"no closing", [](LineEvidenceOptions&, LineChoiceOptions& c) { c.gap = 0.0F; }},
     {"no filter", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.filter.rounds = 0; }},
     {"no rise with noise", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.rise = 0.0F; }},
