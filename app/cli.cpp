@@ -24,7 +24,9 @@
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
+#include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
+#include "core/partitions/tangent_lines.h"
 #include "core/samples/mould.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/normal_noise.h"
@@ -93,6 +95,33 @@ double default_angle_of(const Document& document) {
                              LineMethod::normal_jump);
 }
 
+/// The surface of each partition by its id, and the boundaries along which surfaces touch.
+void add_surfaces(const Document& document, nlohmann::json& summary) {
+  const auto surfaces = fit_partition_surfaces(*document.mesh, document.lines, document.partitions);
+  if (!surfaces) return;
+  nlohmann::json listed = nlohmann::json::object(), tangent = nlohmann::json::array();
+  for (std::size_t k = 0; k < surfaces->size(); ++k) {
+    const PartitionSurface& fit = (*surfaces)[k];
+    nlohmann::json& one = listed[std::to_string(document.partitions.partitions[k]->id)];
+    one["type"] = name_of(fit.surface.type);
+    if (fit.surface.type == SurfaceType::free) continue;
+    one["size"] = size_text(fit.surface);
+    one["mean_deviation"] = rounded(fit.mean_deviation, 4);
+    one["max_deviation"] = rounded(fit.max_deviation, 4);
+    one["within"] = rounded(fit.within, 4);
+  }
+  const auto lines =
+      find_tangent_lines(*document.mesh, document.partitions, *document.boundaries, *surfaces);
+  if (!lines) return;
+  for (const TangentLine& line : *lines)
+    tangent.push_back({{"boundary", line.boundary + 1},
+                       {"fillet", line.fillet},
+                       {"radius", rounded(line.radius, 4)},
+                       {"kink", rounded(line.kink, 3)}});
+  summary["partitions"]["surfaces"] = listed;
+  summary["tangent_lines"] = tangent;
+}
+
 nlohmann::json summary_of(const History& history) {
   const Document& document = history.current();
   nlohmann::json summary;
@@ -140,6 +169,7 @@ nlohmann::json summary_of(const History& history) {
   for (const BoundaryPtr& boundary : *document.boundaries)
     ++types[std::string(name_of(boundary->type))];
   summary["boundaries"] = types;
+  add_surfaces(document, summary);
   summary["document_hash"] = hash_of(document);
   nlohmann::json versions = nlohmann::json::object();
   for (const auto& [sequence, name] : history.names()) versions[name] = sequence;

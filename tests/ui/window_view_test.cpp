@@ -3,9 +3,11 @@
 #include <QAction>
 #include <QClipboard>
 #include <QLabel>
+#include <QTableView>
 
 #include "core/simplification/occupancy.h"
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/element_table.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/steps_panel.h"
 
@@ -236,6 +238,42 @@ TEST_F(WindowViewTest, AMeasurementCanBeCopied) {
   const QString text = QApplication::clipboard()->text();
   EXPECT_NEAR(text.split(' ').first().toDouble(), (a->point - b->point).norm(), 0.001)
       << text.toStdString();
+}
+
+TEST_F(WindowViewTest, RimsOfFilletsAreSetOffAsTangentLines) {
+  open_sample();
+  run_both();
+  key(Qt::Key_P);
+  ElementTable* table = nullptr;
+  for (ElementTable* candidate : window->findChildren<ElementTable*>())
+    if (candidate->findChild<QTableView*>()->model()->columnCount() == 7) table = candidate;
+  ASSERT_NE(table, nullptr);
+  const QAbstractItemModel& rows = *table->findChild<QTableView*>()->model();
+  const auto tangent = [&] {
+    int count = 0;
+    for (int k = 0; k < rows.rowCount(); ++k)
+      if (rows.index(k, 1).data().toString() == "Gn, tangent") {
+        ++count;
+        EXPECT_GT(rows.index(k, 4).data().toDouble(), 0.0);
+      }
+    return count;
+  };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return tangent() > 0; }, patience));
+  const auto thin = [&] {  // pixels in the colour of tangent lines
+    const QImage picture = view().grabFramebuffer();
+    int count = 0;
+    for (int y = 120; y < picture.height(); ++y)  // the legend is above
+      for (int x = 0; x < picture.width(); ++x) {
+        const QColor c = picture.pixelColor(x, y);
+        count += c.red() < 60 && std::abs(c.green() - 132) < 40 && std::abs(c.blue() - 138) < 40;
+      }
+    return count;
+  };
+  const int before = thin();
+  key(Qt::Key_L, Qt::ShiftModifier);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return thin() > before + 100; }, 5000)) << thin();
+  key(Qt::Key_L, Qt::ShiftModifier);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return thin() == before; }, 5000)) << thin();
 }
 
 TEST_F(WindowViewTest, StepCardsTellWhatTheyDid) {

@@ -19,7 +19,7 @@
 namespace arris::ui {
 
 /// How a line is drawn: types tell apart by colour *and* dash or width, for the colour-blind too.
-enum class LineType { c0_convex, c0_concave, gn, undefined, border };
+enum class LineType { c0_convex, c0_concave, gn, tangent, undefined, border };
 
 struct ViewLine {
   std::uint32_t id = 0;  ///< What picking and selection name it by; 0: not selectable.

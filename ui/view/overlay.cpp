@@ -233,6 +233,8 @@ QString line_name(LineType type) {
       return translated("C0 concave");
     case LineType::gn:
       return translated("Gn");
+    case LineType::tangent:
+      return translated("Gn, tangent");
     case LineType::undefined:
       return translated("undefined");
     case LineType::border:

@@ -190,6 +190,7 @@ const std::vector<Stroke>& line_strokes() {
       {1.9F, 0.0F, 0.0F, QColor(222, 66, 12)},    // C0 convex: solid
       {1.9F, 13.0F, 21.0F, QColor(16, 52, 186)},  // C0 concave: long dashes
       {1.6F, 4.0F, 11.5F, QColor(0, 112, 52)},    // Gn: short dashes
+      {1.0F, 0.0F, 0.0F, QColor(0, 132, 138)},    // tangent: thin
       {1.5F, 0.0F, 6.5F, QColor(150, 36, 170)},   // undefined: dots
       {0.9F, 0.0F, 0.0F, QColor(66, 68, 74)},     // border: thin
   };

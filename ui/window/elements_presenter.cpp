@@ -75,11 +75,13 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
 ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
   auto* table = new ElementTable(
       tr("boundaries"),
-      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Left"), tr("Right")},
+      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Radius"), tr("Left"),
+       tr("Right")},
       {tr("Number"),
-       tr("C0: sharp line. Gn: between two partitions. Undefined: unassigned faces beyond. Border: "
-          "the scan ends"),
+       tr("C0: sharp line. Gn: between two partitions; tangent where their surfaces touch, as at "
+          "both rims of a fillet. Undefined: unassigned faces beyond. Border: the scan ends"),
        tr("Length along the boundary"), tr("Mean exterior angle, positive where convex"),
+       tr("Of a tangent line: radius across it of the surface that is bent the more, the fillet"),
        tr("Partition to its left"), tr("Partition to its right")},
       parent);
   table->set_empty_text(tr("Boundaries come with lines and partitions."));
@@ -129,6 +131,18 @@ void ElementsPresenter::set_partitions_shown(bool shown_now) {
   emit partitions_shown_changed();
 }
 
+void ElementsPresenter::set_tangent_lines_shown(bool shown_now) {
+  tangent_lines_shown_ = shown_now;
+  show_lines();
+}
+
+void ElementsPresenter::show_lines() {
+  std::unordered_set<std::size_t> tangent;
+  if (tangent_lines_shown_ && !session_->is_previewing())
+    for (const auto& [place, line] : tangent_) tangent.insert(place);
+  view_->set_lines(view_lines(session_->shown().document, tangent));
+}
+
 void ElementsPresenter::refresh() {
   const Snapshot& snapshot = session_->shown();
   const Document& document = snapshot.document;
@@ -146,7 +160,8 @@ void ElementsPresenter::refresh() {
     view_->set_face_labels({}, {});
   drop_gone(hidden_, [&](std::uint32_t id) { return document.partitions.find(id); });
   drop_gone(isolated_, [&](std::uint32_t id) { return document.partitions.find(id); });
-  view_->set_lines(view_lines(document));
+  if (!session_->is_previewing()) tangent_.clear();  // until they are found again
+  show_lines();
   show_visibility();
 
   // Tables of a part with thousands of rows are filled only for the state that stays.
@@ -163,19 +178,29 @@ void ElementsPresenter::refresh() {
     tables_.lines->set_rows(std::move(rows));
     fill_partitions_table();
     fit_surfaces();
-    rows.clear();
-    for (std::uint32_t k = 0; k < snapshot.boundaries.size(); ++k) {
-      const Boundary& b = *snapshot.boundaries[k];
-      const std::string_view type = name_of(b.type);
-      rows.push_back({k + 1,
-                      {k + 1, QString::fromUtf8(type.data(), static_cast<qsizetype>(type.size())),
-                       shown(b.length), shown(b.mean_angle, 3), partition_name(b.left),
-                       partition_name(b.right)},
-                      {}});
-    }
-    tables_.boundaries->set_rows(std::move(rows));
+    fill_boundaries_table();
   }
   show_selection();
+}
+
+void ElementsPresenter::fill_boundaries_table() {
+  const Boundaries& boundaries = session_->shown().boundaries;
+  std::vector<ElementRow> rows;
+  for (std::uint32_t k = 0; k < boundaries.size(); ++k) {
+    const Boundary& b = *boundaries[k];
+    const std::string_view name = name_of(b.type);
+    QString type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    QVariant radius;
+    if (const auto tangent = tangent_.find(k); tangent != tangent_.end()) {
+      type += tr(", tangent");
+      radius = shown(tangent->second.radius, 3);
+    }
+    rows.push_back({k + 1,
+                    {k + 1, type, shown(b.length), shown(b.mean_angle, 3), radius,
+                     partition_name(b.left), partition_name(b.right)},
+                    {}});
+  }
+  tables_.boundaries->set_rows(std::move(rows));
 }
 
 void ElementsPresenter::fill_partitions_table() {
@@ -215,17 +240,28 @@ void ElementsPresenter::fit_surfaces() {
     if (const auto known = fitted_.find(p.get()); known != fitted_.end()) kept.insert(*known);
   fitted_ = std::move(kept);
   struct Found {
-    std::vector<PartitionSurface> surfaces;  // empty: all are known
+    std::vector<PartitionSurface> surfaces;
     std::vector<Outline> outlines;
+    std::vector<TangentLine> tangent;
   };
+  std::vector<PartitionSurface> known;  // empty: not all are
+  if (fitted_.size() == partitions.size())
+    for (const PartitionPtr& p : partitions) known.push_back(fitted_.at(p.get()).surface);
   surfaces_work_.start(
-      [document, known = fitted_.size() == partitions.size()](const Context& context) {
+      [document, known = std::move(known)](const Context& context) {
         Found found;
         found.outlines = outlines_of(*document.mesh, document.lines, document.partitions);
-        if (known || context.cancelled()) return found;
-        auto fitted =
-            fit_partition_surfaces(*document.mesh, document.lines, document.partitions, context);
-        if (fitted) found.surfaces = std::move(*fitted);
+        if (context.cancelled() || !document.boundaries) return found;
+        found.surfaces = known;
+        if (known.empty()) {
+          auto fitted =
+              fit_partition_surfaces(*document.mesh, document.lines, document.partitions, context);
+          if (!fitted) return found;
+          found.surfaces = std::move(*fitted);
+        }
+        auto tangent = find_tangent_lines(*document.mesh, document.partitions, *document.boundaries,
+                                          found.surfaces, {}, context);
+        if (tangent) found.tangent = std::move(*tangent);
         return found;
       },
       [this, partitions](const Found& found) {
@@ -238,7 +274,13 @@ void ElementsPresenter::fit_surfaces() {
           if (!found.surfaces.empty())
             fitted_.insert_or_assign(partitions[k].get(), Fitted{partitions[k], found.surfaces[k]});
         }
-        if (!session_->is_previewing()) fill_partitions_table();
+        tangent_.clear();
+        for (const TangentLine& line : found.tangent) tangent_[line.boundary] = line;
+        if (!session_->is_previewing()) {
+          fill_partitions_table();
+          if (!tangent_.empty()) fill_boundaries_table();
+          if (!tangent_.empty() && tangent_lines_shown_) show_lines();
+        }
         show_selection();
       });
 }

@@ -9,6 +9,7 @@
 
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
+#include "core/partitions/tangent_lines.h"
 #include "ui/panels/element_table.h"
 #include "ui/view/mesh_view.h"
 #include "ui/window/latest_work.h"
@@ -30,6 +31,9 @@ class ElementsPresenter : public QObject {
   /// The partitions as colours on the surface, or the field.
   void set_partitions_shown(bool shown);
   bool partitions_shown() const { return partitions_shown_; }
+
+  /// Tangent lines, thin and in a colour of their own, or like other Gn boundaries.
+  void set_tangent_lines_shown(bool shown);
 
   using Ids = std::unordered_set<std::uint32_t>;
   const Ids& selected_lines() const { return lines_; }
@@ -75,12 +79,14 @@ class ElementsPresenter : public QObject {
   void show_visibility();
   void clear_sets();
   void fill_partitions_table();
+  void fill_boundaries_table();
+  void show_lines();
   void fit_surfaces();
 
   Session* session_;
   MeshView* view_;
   Tables tables_;
-  bool partitions_shown_ = false;
+  bool partitions_shown_ = false, tangent_lines_shown_ = false;
   Ids lines_, partitions_, boundaries_;  // selected
   Ids hidden_, isolated_;                // partitions; none isolated: all are shown
   struct Fitted {
@@ -88,9 +94,10 @@ class ElementsPresenter : public QObject {
     PartitionSurface surface;
   };
   std::unordered_map<const Partition*, Fitted> fitted_;
-  std::unordered_map<std::uint32_t, QVariant> sides_;  // by id of the partition
-  LatestWork surfaces_work_;                           // which surfaces partitions are of
-  LatestWork scan_work_;                               // which faces of the scan they are
+  std::unordered_map<std::uint32_t, QVariant> sides_;     // by id of the partition
+  std::unordered_map<std::size_t, TangentLine> tangent_;  // by place of the boundary
+  LatestWork surfaces_work_;                              // which surfaces partitions are of
+  LatestWork scan_work_;                                  // which faces of the scan they are
 };
 
 }  // namespace arris::ui

@@ -449,6 +449,11 @@ void MainWindow::make_actions() {
     a->setChecked(t.on);
     connect(a, &QAction::toggled, view_, t.set);
   }
+  QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Shift+L"),
+                            tr("Set off the Gn boundaries along which two surfaces touch, as at "
+                               "both rims of a fillet"));
+  tangent->setCheckable(true);
+  connect(tangent, &QAction::toggled, elements_, &ElementsPresenter::set_tangent_lines_shown);
   QAction* dark = action(look, tr("&Dark"), QKeySequence("Ctrl+D"), tr("Light or dark window"));
   dark->setCheckable(true);
   connect(dark, &QAction::toggled, this, [this](bool on) {

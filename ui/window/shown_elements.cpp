@@ -24,14 +24,16 @@ LineType type_of(const Boundary& boundary) {
 
 }  // namespace
 
-std::vector<ViewLine> view_lines(const Document& document) {
+std::vector<ViewLine> view_lines(const Document& document,
+                                 const std::unordered_set<std::size_t>& tangent) {
   std::vector<ViewLine> lines;
   if (!document.boundaries) return lines;
   lines.reserve(document.boundaries->size());
   for (std::uint32_t k = 0; k < document.boundaries->size(); ++k) {
     const Boundary& boundary = *(*document.boundaries)[k];
     lines.push_back({boundary.type == BoundaryType::c0 ? boundary.line : first_boundary + k,
-                     type_of(boundary), boundary.vertices});
+                     tangent.contains(k) ? LineType::tangent : type_of(boundary),
+                     boundary.vertices});
   }
   return lines;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include <QColor>
@@ -16,7 +17,9 @@ namespace arris::ui {
 /// document as first_boundary + k, and sharp lines by their ids.
 inline constexpr std::uint32_t first_boundary = 0x80000000u;
 
-std::vector<ViewLine> view_lines(const Document& document);
+/// `tangent`: places of the boundaries that are shown as tangent lines.
+std::vector<ViewLine> view_lines(const Document& document,
+                                 const std::unordered_set<std::size_t>& tangent = {});
 
 /// Places of the partitions in document.partitions.partitions by id, from 1; 0: no partition.
 std::vector<std::uint32_t> places_of_partitions(const Document& document);
