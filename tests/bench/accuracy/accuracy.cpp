@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tests/bench/accuracy/cases.h"
+#include "tests/bench/accuracy/leave_one_out.h"
 #include "tests/bench/accuracy/methods.h"
 #include "tests/bench/accuracy/save.h"
 #include "tests/bench/accuracy/summary.h"
@@ -128,6 +129,9 @@ int main(int argc, char** argv) {
   app.add_flag("--generated,!--no-generated", generated, "With or without parts made by code");
   bool with_ideas = false;
   app.add_flag("--ideas", with_ideas, "The default method with each of its ideas off, too");
+  bool only_leave_one_out = false;
+  app.add_flag("--leave-one-out", only_leave_one_out,
+               "Instead: what the constants of the default are worth on parts left out");
   app.add_flag("--summary", summary_only, "Leave the table of single cases out");
   app.add_flag("--quiet", wishes.quiet, "Do not name each case on standard error");
   try {
@@ -165,6 +169,12 @@ int main(int argc, char** argv) {
   });
   if (cases.empty()) return complain("There is no case " + wishes.glob + ".", bad_usage);
 
+  if (only_leave_one_out) {
+    const Result<Table> table = leave_one_out(cases, wishes.quiet);
+    if (!table) return complain(table.error().message, bad_input);
+    table->print(markdown);
+    return 0;
+  }
   std::vector<Row> rows;
   int failures = 0;
   for (const Case& item : cases)

@@ -27,6 +27,7 @@
 #include "core/partitions/intervals.h"
 #include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/lines.h"
+#include "tests/bench/accuracy/changed.h"
 #include "tests/bench/accuracy/turning.h"
 
 namespace arris::accuracy {
@@ -34,51 +35,6 @@ namespace arris::accuracy {
 namespace {
 
 constexpr double dihedral_angle = 30.0;  // degrees; what the peers are usually set to
-
-/// The document as `open` leaves it.
-Result<Document> opened(const ScanPtr& scan) {
-  Document document;
-  document.scan = scan;
-  document.mesh = scan->mesh;
-  const Result<CurvaturesPtr> curvatures = compute_curvatures(*scan->mesh);
-  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
-  document.curvatures = *curvatures;
-  document.opened = {document.mesh, document.curvatures, nullptr};
-  document.boundaries = std::make_shared<const Boundaries>();
-  return document;
-}
-
-Polyline polyline(const Mesh& mesh, const std::vector<VertexId>& path) {
-  Polyline line;
-  line.reserve(path.size());
-  for (const VertexId v : path) line.push_back(mesh.point(v));
-  return line;
-}
-
-/// The edges that are lines, of one origin for each edge.
-template <class Origins>
-std::vector<EdgeId> line_edges_of(const Origins& origins, std::size_t count) {
-  std::vector<EdgeId> edges;
-  for (EdgeId e = 0; e < count; ++e)
-    if (origins[e] != Origin::none) edges.push_back(e);
-  return edges;
-}
-
-/// The lines of a document; as edges only where its mesh is the scan's.
-void add_lines(const Document& document, Found& found) {
-  for (const LinePtr& line : document.lines.lines)
-    found.lines.push_back(polyline(*document.mesh, line->vertices));
-  if (document.mesh == document.scan->mesh)
-    found.line_edges = line_edges_of(document.lines.edges, document.lines.edges.size());
-}
-
-/// The lines along edges of the scan's mesh.
-void add_lines(const Mesh& mesh, const Curvatures& curvatures, const std::vector<Origin>& edges,
-               Found& found) {
-  for (const Line& line : derive_lines(mesh, curvatures, edges))
-    found.lines.push_back(polyline(mesh, line.vertices));
-  found.line_edges = line_edges_of(edges, edges.size());
-}
 
 Result<Found> run_operations(const std::vector<Operation>& operations, const ScanPtr& scan) {
   Result<Document> document = opened(scan);
@@ -94,30 +50,11 @@ Result<Found> run_operations(const std::vector<Operation>& operations, const Sca
   return found;
 }
 
-/// The lines of the default method with some of its ideas changed.
+/// One of the ideas that lines are found by, changed.
 struct Idea {
   const char* name;
   void (*change)(LineEvidenceOptions&, LineChoiceOptions&);
 };
-
-Result<Found> jump_lines(const ScanPtr& scan, const Idea& idea) {
-  const Mesh& mesh = *scan->mesh;
-  const Result<CurvaturesPtr> curvatures = compute_curvatures(mesh);
-  if (!curvatures) return tl::unexpected<Error>(curvatures.error());
-  LineEvidenceOptions options;
-  LineChoiceOptions choice;
-  idea.change(options, choice);
-  const Result<LineEvidencePtr> evidence = gather_line_evidence(mesh, **curvatures, options);
-  if (!evidence) return tl::unexpected<Error>(evidence.error());
-  choice.angle = static_cast<float>(std::round(jump_threshold((*evidence)->noise, options)));
-  if (choice.clear_slit > 0.0F)
-    choice.clear_slit = static_cast<float>(clear_jump((*evidence)->noise, options));
-  std::vector<Origin> edges(mesh.edge_count(), Origin::none);
-  for (const EdgeId e : (*evidence)->candidates.choose(choice)) edges[e] = Origin::found;
-  Found found;
-  add_lines(mesh, **curvatures, edges, found);
-  return found;
-}
 
 /// Each idea of the default method switched off, one at a time.
 constexpr Idea ideas[] = {
@@ -144,27 +81,10 @@ constexpr Idea ideas[] = {
     {"no exact creases", [](LineEvidenceOptions& o, LineChoiceOptions&) { o.exact = false; }},
 };
 
-/// The partitions of the default method with some of its ideas changed, between its lines.
 struct AreaIdea {
   const char* name;
   void (*change)(AreaTreeOptions&);
 };
-
-Result<Found> surface_areas(const ScanPtr& scan, const AreaIdea& idea) {
-  Result<Document> document = opened(scan);
-  if (document) document = apply(*document, {"find_sharp_lines"});
-  if (!document) return tl::unexpected<Error>(document.error());
-  Found found;
-  add_lines(*document, found);
-  AreaTreeOptions options;
-  idea.change(options);
-  const Result<AreaTree> tree = grow_area_tree(*scan->mesh, document->lines, options, {});
-  if (!tree) return tl::unexpected<Error>(tree.error());
-  found.labels =
-      tree->by_face(tree->cut(1.0F, default_min_faces(*scan->mesh, PartitionMethod::surfaces)));
-  for (std::uint32_t& label : found.labels) ++label;
-  return found;
-}
 
 /// Each idea of the partitions switched off, one at a time.
 constexpr AreaIdea area_ideas[] = {
@@ -325,12 +245,12 @@ std::vector<Method> method_table(bool with_ideas) {
   }
   if (with_ideas)
     for (const Idea& idea : ideas)
-      methods.push_back(
-          timed(idea.name, [&idea](const ScanPtr& scan) { return jump_lines(scan, idea); }));
+      methods.push_back(timed(
+          idea.name, [&idea](const ScanPtr& scan) { return changed_lines(scan, idea.change); }));
   if (with_ideas)
     for (const AreaIdea& idea : area_ideas)
-      methods.push_back(
-          timed(idea.name, [&idea](const ScanPtr& scan) { return surface_areas(scan, idea); }));
+      methods.push_back(timed(
+          idea.name, [&idea](const ScanPtr& scan) { return changed_areas(scan, idea.change); }));
   methods.push_back(timed("dihedral 30", dihedral_lines));
 #ifdef ARRIS_ACCURACY_VTK
   methods.push_back(timed("vtkFeatureEdges", vtk_feature_edges));
