@@ -14,6 +14,7 @@
 
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/written_results.h"
+#include "tests/support/documents.h"
 
 namespace arris {
 namespace {
@@ -39,6 +40,19 @@ TEST_F(Cli, SegmentOfAStepFindsItsLinesAndLevels) {
   EXPECT_EQ(result["boundaries"], (json{{"C0", 2}, {"border", 4}}));
   for (const char* step : {"open", "find_sharp_lines", "find_partitions"})
     EXPECT_TRUE(result["seconds"][step].is_number()) << step;
+}
+
+TEST_F(Cli, SegmentTellsTheRimsOfAFilletAndItsRadius) {
+  expect_done({"segment",
+               write_mesh(folder, "part.ply", noisy(filleted_edge(18.0, 5.0, 0.7), 0.05, 5)), "-o",
+               folder.file("results")});
+  const json result = summary("results");
+  EXPECT_EQ(result["partitions"]["count"], 3);
+  ASSERT_EQ(result["tangent_lines"].size(), 2u);
+  for (const json& line : result["tangent_lines"]) EXPECT_NEAR(line["radius"], 5.0, 0.1);
+  const json fillet = result["partitions"]["surfaces"][result["tangent_lines"][0]["fillet"].dump()];
+  EXPECT_EQ(fillet["type"], "cylinder");
+  EXPECT_LT(fillet["mean_deviation"], 0.1);
 }
 
 TEST_F(Cli, SegmentTakesItsOptions) {

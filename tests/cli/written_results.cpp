@@ -182,6 +182,21 @@ void expect_valid_results(const TempFolder& folder, const std::string& results,
   }
   EXPECT_EQ(json(types), summary["boundaries"].is_null() ? json::object() : summary["boundaries"]);
 
+  // Surfaces, and where they touch.
+  EXPECT_EQ(summary["partitions"]["surfaces"].size(), summary["partitions"]["count"]);
+  for (const json& surface : summary["partitions"]["surfaces"])
+    EXPECT_EQ(surface.contains("max_deviation"), surface["type"] != "free");
+  std::vector<std::string> groups;
+  for (const auto& [group, path] : boundaries) groups.push_back(group);
+  for (const json& line : summary["tangent_lines"]) {
+    const std::string head = "boundary_" + line["boundary"].dump() + "_Gn_";
+    EXPECT_TRUE(std::ranges::any_of(groups, [&](const std::string& group) {
+      return group.starts_with(head);
+    })) << head;
+    EXPECT_TRUE(summary["partitions"]["surfaces"].contains(line["fillet"].dump()));
+    EXPECT_GT(line["radius"], 0.0);
+  }
+
   // The rest of the summary.
   EXPECT_EQ(summary["scan"]["file_faces"], polygons);
   EXPECT_EQ(summary["document_hash"].get<std::string>().size(), 32u);

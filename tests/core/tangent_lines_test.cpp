@@ -36,23 +36,10 @@ std::vector<TangentLine> tangent_lines_of(const Document& document) {
   return lines;
 }
 
-constexpr double flat = 18.0;  // mm of plane on each side of what follows
-
-/// Two planes at a right angle with a fillet between them.
-Triangles filleted(double radius, double h) {
-  const double arc = radius * std::numbers::pi / 2.0;
-  return shaped_lattice(2.0 * flat + arc, h, [=](double x, double y) {
-    if (x <= flat) return Point(x - flat, y, 0.0);
-    if (x >= flat + arc) return Point(radius, y, -radius - (x - flat - arc));
-    const double turn = (x - flat) / radius;
-    return Point(radius * std::sin(turn), y, radius * (std::cos(turn) - 1.0));
-  });
-}
-
 TEST(TangentLines, AreBothRimsOfAFilletWithItsRadius) {
   for (const double radius : {5.0, 9.0})
     for (const double noise : {0.0, 0.05, 0.1}) {
-      const Document document = found(noisy(filleted(radius, 0.7), noise, 5));
+      const Document document = found(noisy(filleted_edge(18.0, radius, 0.7), noise, 5));
       ASSERT_EQ(document.partitions.partitions.size(), 3u) << radius << " " << noise;
       const std::vector<TangentLine> lines = tangent_lines_of(document);
       ASSERT_EQ(lines.size(), 2u) << radius << " " << noise;
@@ -67,7 +54,7 @@ TEST(TangentLines, AreBothRimsOfAFilletWithItsRadius) {
 }
 
 TEST(TangentLines, AreMeasuredInTheUnitOfThePart) {
-  const Triangles part = noisy(filleted(5.0, 0.7), 0.05, 5);
+  const Triangles part = noisy(filleted_edge(18.0, 5.0, 0.7), 0.05, 5);
   const double metres = 0.001;
   const std::vector<TangentLine> lines = tangent_lines_of(
       found(moved(part, metres, Eigen::Matrix3d::Identity(), Point(3.0, -2.0, 1.0))));

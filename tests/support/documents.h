@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -67,6 +69,17 @@ inline Triangles shaped_lattice(double size, double h,
   Triangles mesh = noisy_plane(size, h, 0.0, 0.0, 1);
   for (Point& p : mesh.points) p = place(p.x(), p.y());
   return mesh;
+}
+
+/// Two planes, `flat` wide each, at a right angle with a fillet between them.
+inline Triangles filleted_edge(double flat, double radius, double h) {
+  const double arc = radius * std::numbers::pi / 2.0;
+  return shaped_lattice(2.0 * flat + arc, h, [=](double x, double y) {
+    if (x <= flat) return Point(x - flat, y, 0.0);
+    if (x >= flat + arc) return Point(radius, y, -radius - (x - flat - arc));
+    const double turn = (x - flat) / radius;
+    return Point(radius * std::sin(turn), y, radius * (std::cos(turn) - 1.0));
+  });
 }
 
 inline Document applied(const Document& document, const Operation& operation) {
