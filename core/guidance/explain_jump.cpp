@@ -131,8 +131,8 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
       result.failed = reaches ? "it parts no two regions, and for that its crest is too short or "
                                 "jumps too little"
                               : "it parts no two regions, and its own jump of " +
-                                    degrees_in_words(place.value) + " is not above the threshold of " +
-                                    threshold;
+                                    degrees_in_words(place.value) +
+                                    " is not above the threshold of " + threshold;
     else if (!above)
       result.failed =
           (border->exact ? "its exterior angle of " : "its border as a whole reads ") +
