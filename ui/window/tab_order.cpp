@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include <QApplication>
@@ -9,6 +10,8 @@
 #include <QEvent>
 #include <QPainter>
 #include <QScrollArea>
+#include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 
 namespace arris::ui {
@@ -42,8 +45,18 @@ bool before(const Stop& a, const Stop& b) {
          std::pair(b.place.center().y(), b.place.left());
 }
 
+/// Whether a panel lies over the others instead of beside them, as a card does.
+bool floats(const QMainWindow& window, const QWidget* panel) {
+  return panel != window.centralWidget() && !qobject_cast<const QDockWidget*>(panel) &&
+         !qobject_cast<const QToolBar*>(panel) && !qobject_cast<const QTabBar*>(panel) &&
+         !qobject_cast<const QStatusBar*>(panel);
+}
+
 std::vector<Stop> stops_of(const QMainWindow& window) {
   std::vector<Stop> stops;
+  std::unordered_map<const QWidget*, int> in_chain;
+  for (const QWidget* w = window.nextInFocusChain(); w && w != &window; w = w->nextInFocusChain())
+    if (!in_chain.emplace(w, static_cast<int>(in_chain.size())).second) break;
   for (QWidget* widget : window.findChildren<QWidget*>()) {
     if (widget->window() != &window || !widget->isEnabled() || !widget->isVisibleTo(&window) ||
         (widget->focusPolicy() & Qt::TabFocus) == 0 || widget->focusProxy() != nullptr)
@@ -51,6 +64,12 @@ std::vector<Stop> stops_of(const QMainWindow& window) {
     const QWidget* panel = panel_of(window, widget);
     // A panel behind the tab of another is laid out of the window.
     if (panel->visibleRegion().isEmpty()) continue;
+    if (floats(window, panel)) {  // after the middle of the window, in its own order
+      const QRect under = window.centralWidget()->geometry();
+      stops.push_back(
+          {widget, {1, under.left(), under.top() + 1}, QRect(in_chain[widget], 0, 1, 1)});
+      continue;
+    }
     const QRect where(panel->mapTo(&window, QPoint()), panel->size());
     const bool bar = qobject_cast<const QToolBar*>(panel) != nullptr;
     stops.push_back({widget,
