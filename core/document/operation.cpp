@@ -16,7 +16,7 @@ constexpr const char* version_key = "version";
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 29> table{open_operation,
+  static const std::array<OperationKind, 30> table{open_operation,
                                                    flip_orientation_operation,
                                                    delete_faces_operation,
                                                    simplify_operation,
@@ -37,6 +37,7 @@ std::span<const OperationKind> operation_table() {
                                                    extend_partition_operation,
                                                    remove_partitions_operation,
                                                    remove_small_partitions_operation,
+                                                   fill_unassigned_operation,
                                                    restart_partitions_operation,
                                                    recompute_partitions_operation,
                                                    split_partition_operation,
@@ -131,9 +132,7 @@ Result<Document> apply(const Document& document, const Operation& operation,
 std::string describe(const Operation& operation) {
   const OperationKind* kind = find_operation(operation.name);
   if (!kind) return operation.name;
-  const std::string gist = kind->gist(operation.parameters);
-  return std::string(kind->title) +
-         (gist.empty() ? "" : (kind->name == "open" ? " " : ", ") + gist);
+  return kind->words(operation.parameters);
 }
 
 }  // namespace arris

@@ -42,8 +42,9 @@ struct OperationKind {
   /// The new snapshot. A pure function of its arguments (for `open`: and of the file, whose hash is
   /// among the resolved parameters).
   Result<Document> (*apply)(const Document&, const nlohmann::json& parameters, const Context&);
-  /// The gist of the parameters for the history: "24.0°"; may be empty.
-  std::string (*gist)(const nlohmann::json& parameters);
+  /// What it does in words, for the history: "Find sharp lines, 24.0°", "Delete 24 lines"; for
+  /// parameters that are not resolved as far as they go.
+  std::string (*words)(const nlohmann::json& parameters);
   /// Parameters stored by an older version as this version says the same; null: there is none.
   nlohmann::json (*upgrade)(int version, nlohmann::json parameters) = nullptr;
 };

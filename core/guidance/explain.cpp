@@ -7,7 +7,7 @@
 #include <optional>
 #include <unordered_set>
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
 #include "core/document/operations/chain.h"
 #include "core/document/treatments/treatment.h"
 #include "core/guidance/explain_jump.h"
@@ -20,15 +20,10 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string short_text(double value) { return number_text(value, 4); }
-std::string degrees_text(double value) { return fixed_text(value, 1) + " degrees"; }
+std::string short_text(double value) { return number_text(value, 3); }
 constexpr const char* corrected_away = "the step finds it, so a correction took it away afterwards";
 
 std::string vertex_text(VertexId v) { return "vertex " + std::to_string(v); }
-
-std::string count_text(std::size_t count, const std::string& one, const std::string& more) {
-  return std::to_string(count) + " " + (count == 1 ? one : more);
-}
 
 // ---- edges ----
 
@@ -80,12 +75,12 @@ class EdgeTests {
                          : "The scan ends at this edge, and such edges have no exterior angle."});
     const bool sharp = above_angle();
     tests.push_back({"|IHe|", angle_, options_.angle, "°", sharp,
-                     "Its exterior angle of " + degrees_text(angle_) + " is " +
+                     "Its exterior angle of " + degrees_in_words(angle_) + " is " +
                          (sharp ? "above" : "not above") + " TV_IH, " +
-                         degrees_text(options_.angle) + "."});
+                         degrees_in_words(options_.angle) + "."});
     if (options_.max_angle < 180.0 || options_.convexity != Convexity::any)
       tests.push_back({"Bounds", angle_, options_.max_angle, "°", within_bounds(),
-                       "Lines are looked for up to " + degrees_text(options_.max_angle) +
+                       "Lines are looked for up to " + degrees_in_words(options_.max_angle) +
                            (options_.convexity == Convexity::convex    ? ", convex ones only."
                             : options_.convexity == Convexity::concave ? ", concave ones only."
                                                                        : ".")});
@@ -123,8 +118,8 @@ class EdgeTests {
   std::optional<std::string> failed() const {
     if (mesh_.is_border_edge(e_)) return "the scan ends at this edge";
     if (!above_angle())
-      return "its angle of " + degrees_text(angle_) + " is not above the threshold of " +
-             degrees_text(options_.angle);
+      return "its angle of " + degrees_in_words(angle_) + " is not above the threshold of " +
+             degrees_in_words(options_.angle);
     if (!within_bounds()) return "its angle is outside the bounds that were asked for";
     for (const VertexId v : mesh_.edge(e_))
       if (!(curvatures_.ikabs[v] > tv_ik_))
@@ -142,7 +137,7 @@ class EdgeTests {
       remove_parallel_lines(mesh_, curvatures_, options_.parallel_distance, edges);
       if (!is_sharp(e_))
         return "it was found, but its line doubled a stronger one of the same sign at most " +
-               count_text(static_cast<std::size_t>(options_.parallel_distance), "edge", "edges") +
+               counted(static_cast<std::size_t>(options_.parallel_distance), "edge", "edges") +
                " away";
     }
     if (options_.bridge_gap > 0.0) bridge_gaps(mesh_, curvatures_, options_.bridge_gap, edges);
@@ -190,7 +185,7 @@ class EdgeTests {
       mesh_.for_ring(v, [&](HalfEdgeId h) { on_line |= is_sharp(h >> 1); });
       const std::size_t rank = rank_at(v, is_sharp);
       if (!on_line && rank > static_cast<std::size_t>(options_.candidates))
-        return count_text(rank - 1, "free edge", "free edges") + " at " + vertex_text(v) +
+        return counted(rank - 1, "free edge", "free edges") + " at " + vertex_text(v) +
                (rank == 2 ? " has" : " have") + " a larger |IHe|, and only " +
                std::to_string(options_.candidates) +
                (options_.candidates == 1 ? " is a candidate" : " are candidates");
@@ -341,7 +336,7 @@ class FaceRules {
 
 std::string interval_text(const FaceRules& rules, const CurvatureInterval& interval) {
   return std::isfinite(interval.max) ? short_text(interval.min) + " to " + rules.text(interval.max)
-                                     : rules.text(interval.min) + " and more";
+                                     : "above " + rules.text(interval.min);
 }
 
 /// The bound that a value breaks, or else the nearer one.
@@ -377,7 +372,7 @@ ExplainedTest vertex_test(const Mesh& mesh, const FaceRules& rules, VertexId v,
     test.sentence = measured + ", inside " + range + ".";
   else
     test.sentence = measured + ", " + rules.text(std::abs(test.value - test.threshold)) +
-                    (test.value > interval->max ? " above " : " below ") + range + ".";
+                    (test.value > interval->max ? " over " : " below ") + range + ".";
   return test;
 }
 
@@ -418,15 +413,17 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   const std::optional<Step>& step = document.find_sharp_lines;
   // Out of date, the step's own mesh is gone: the tests tell of the current one.
   const bool out_of_date = step && step->out_of_date;
-  if (result.holds) {
-    const Result<LineEvidencePtr> evidence = line_evidence_of(document);
-    const double angle =
-        *evidence ? (*evidence)->jump[e] : document.curvatures->beta[e] * 180.0 / std::numbers::pi;
-    result.headline = "On line " + std::to_string(line_through(mesh, document.lines, e)) + ", " +
-                      origin_text(document.lines.edges[e]) + "; " +
-                      (angle >= 0.0 ? "convex " : "concave ") + degrees_text(std::abs(angle)) +
-                      (out_of_date ? ", from before an earlier step changed." : ".");
-  }
+  const Result<LineEvidencePtr> known = line_evidence_of(document);
+  const double measured =
+      *known ? jump_that_counts(**known, e)
+             : static_cast<double>(document.curvatures->beta[e]) * 180.0 / std::numbers::pi;
+  const auto on_line_text = [&](double angle) {
+    return "On line " + std::to_string(line_through(mesh, document.lines, e)) + ", " +
+           origin_text(document.lines.edges[e]) + "; " +
+           (measured >= 0.0 ? "convex " : "concave ") + degrees_in_words(std::abs(angle)) +
+           (out_of_date ? ", from before an earlier step changed." : ".");
+  };
+  if (result.holds) result.headline = on_line_text(measured);
   if (!step) {
     if (!result.holds) result.headline = "Not on a line: sharp lines were not looked for yet.";
     return result;
@@ -459,6 +456,11 @@ Explanation explain_edge(const Document& document, EdgeId e) {
       base.evidence = std::make_shared<const SharedLineEvidence>(base.mesh, base.curvatures);
     JumpTests jump = test_by_jump(*base.mesh, **base.evidence->get(), options, there.value_or(e));
     result.tests = std::move(jump.tests);
+    // The headline says the very value that decides.
+    if (result.holds)
+      for (const ExplainedTest& test : result.tests)
+        if (test.name == "Normal jump" || test.name == "Exterior angle")
+          result.headline = on_line_text(test.value);
     if (!jump.profile.dots.empty()) result.profile = std::move(jump.profile);
     if (!result.holds)
       result.headline = headline_of(jump.failed, [] { return std::string(corrected_away); });
@@ -539,8 +541,8 @@ Explanation explain_face(const Document& document, FaceId f) {
         {"Faces of its front", static_cast<double>(front), static_cast<double>(rules.min_faces()),
          "", enough,
          enough ? "A front through it covers at least the " +
-                      count_text(rules.min_faces(), "face", "faces") + " that make a partition."
-                : "A front through it covers " + count_text(front, "face", "faces") +
+                      counted(rules.min_faces(), "face", "faces") + " that make a partition."
+                : "A front through it covers " + counted(front, "face", "faces") +
                       ", fewer than the " + std::to_string(rules.min_faces()) +
                       " that make a partition."});
   }
@@ -562,7 +564,7 @@ Explanation explain_face(const Document& document, FaceId f) {
       result.headline = in + ", joined without a vote across its longest side" + dated;
     else if (rules.fill_holes() > 0)
       result.headline = in + ", filled as part of a hole of fewer than " +
-                        count_text(rules.fill_holes(), "face", "faces") + dated;
+                        counted(rules.fill_holes(), "face", "faces") + dated;
     else
       result.headline = in + " by a correction" + dated;
     return result;
@@ -575,7 +577,7 @@ Explanation explain_face(const Document& document, FaceId f) {
         "all its vertices lie on lines or the border, and no partition lies across its longest "
         "side";
   else if (passed && front < rules.min_faces())
-    reason = "the front here covers " + count_text(front, "face", "faces") + ", fewer than the " +
+    reason = "the front here covers " + counted(front, "face", "faces") + ", fewer than the " +
              std::to_string(rules.min_faces()) + " that make a partition";
   else if (passed)
     reason = "it passes, so a correction took it away afterwards";

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_set>
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
 
 namespace arris {
 
@@ -13,8 +13,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string degrees_text(double value) { return fixed_text(value, 1) + " degrees"; }
-std::string length_text(double value) { return number_text(value, 4) + " mm"; }
+std::string length_text(double value) { return measure_text(value) + " mm"; }
 
 bool contains(const std::vector<EdgeId>& edges, EdgeId e) {
   return std::binary_search(edges.begin(), edges.end(), e);
@@ -44,6 +43,13 @@ Group group_of(const Mesh& mesh, const CandidateGraph& candidates,
 
 }  // namespace
 
+double jump_that_counts(const LineEvidence& evidence, EdgeId e) {
+  const double here = evidence.jump[e];
+  const BorderEdge* border = evidence.candidates.find(e);
+  if (!border || !(border->height > 0.0F)) return here;
+  return std::copysign(border->height, here);
+}
+
 JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
                        const SharpLineOptions& options, EdgeId e) {
   JumpTests result;
@@ -57,7 +63,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     return result;
   }
   result.profile = profile_across(mesh, evidence.candidates, e);
-  const std::string threshold = degrees_text(options.angle);
+  const std::string threshold = degrees_in_words(options.angle);
   const BorderEdge* border = evidence.candidates.find(e);
   const double here = std::abs(evidence.jump[e]);
   if (!border) {
@@ -65,8 +71,8 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
          "No border between regions runs here: the jump has its crest elsewhere, or is too weak to "
          "part two regions."});
     add({"Normal jump", here, options.angle, "°", here > options.angle,
-         "Here the mean normal jumps by " + degrees_text(here) + "; TV_IH is " + threshold +
-             ", and off the borders it counts for nothing."});
+         "The mean normal hardly jumps across the edge, or does so on a slope: off the borders it "
+         "counts for nothing."});
     result.failed = "no border between regions runs here";
     return result;
   }
@@ -84,8 +90,8 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
     add({"Region border", none, none, "", true,
          "The mesh has no noise here, so that each edge counts by its own exterior angle."});
     add({"Exterior angle", border->height, options.angle, "°", above,
-         "Its exterior angle of " + degrees_text(border->height) + " is " +
-             (above ? "above" : "not above") + " TV_IH, " + threshold + "."});
+         std::string("The angle between the faces of the edge is ") +
+             (above ? "above" : "not above") + " TV_IH."});
   } else {
     add({"Region border", none, none, "", !is_open || is_chosen,
          is_open ? "It parts no two regions, but lies on a crest of the jump, as a step does that "
@@ -93,30 +99,28 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
                  : "It lies on a border between two regions."});
     if (is_open)
       add({"Normal jump", place.value, options.angle, "°", reaches,
-           "A line that parts no two regions counts by its own jump, " + degrees_text(place.value) +
-               "; TV_IH is " + threshold +
+           std::string("A line that parts no two regions counts by its own jump") +
                (is_chosen && !reaches ? ". It closes a short gap between two lines."
                                       : ". It has to be the longer the less it jumps.")});
     else
       add({"Normal jump", border->height, options.angle, "°", above,
-           "Its border as a whole reads " + degrees_text(border->height) + ", " +
-               (above ? "above" : "not above") + " TV_IH, " + threshold + "; at this place " +
-               degrees_text(place.value) + "." +
+           std::string("By so much the mean normal jumps along this border as a whole: ") +
+               (above ? "above" : "not above") + " TV_IH." +
                (is_chosen && !above ? " It closes a short gap between two lines." : "")});
     const double jump = std::abs(place.jump), turn = std::abs(place.turn);
     const double least = BorderTestOptions().least_ratio;
     if (turn > 0.0)
       add({"Jump to turn", rounded(jump / turn, 2), least, "", jump >= least * turn,
-           "Its sides differ by " + degrees_text(turn) + ", of which " + degrees_text(jump) +
-               " lie at the line itself and the rest in what surrounds it; a fillet turns over a "
-               "distance."});
+           "Of what the surface turns here, this share lies at the line itself and the rest in "
+           "what "
+           "surrounds it; a fillet turns over a distance."});
   }
   const bool within = std::abs(place.value) <= options.max_angle &&
                       (options.convexity == Convexity::any ||
                        (place.turn >= 0.0F) == (options.convexity == Convexity::convex));
   if (options.max_angle < 180.0 || options.convexity != Convexity::any)
     add({"Bounds", place.value, options.max_angle, "°", within,
-         "Lines are looked for up to " + degrees_text(options.max_angle) +
+         "Lines are looked for up to " + degrees_in_words(options.max_angle) +
              (options.convexity == Convexity::convex    ? ", convex ones only."
               : options.convexity == Convexity::concave ? ", concave ones only."
                                                         : ".")});
@@ -127,12 +131,12 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
       result.failed = reaches ? "it parts no two regions, and for that its crest is too short or "
                                 "jumps too little"
                               : "it parts no two regions, and its own jump of " +
-                                    degrees_text(place.value) + " is not above the threshold of " +
-                                    threshold;
+                                    degrees_in_words(place.value) +
+                                    " is not above the threshold of " + threshold;
     else if (!above)
       result.failed =
           (border->exact ? "its exterior angle of " : "its border as a whole reads ") +
-          degrees_text(border->height) +
+          degrees_in_words(border->height) +
           (border->exact ? " is not above the threshold of " : ", not above the threshold of ") +
           threshold;
     else

@@ -19,6 +19,10 @@ struct JumpTests {
   JumpProfile profile;
 };
 
+/// Degrees, convex positive, by which an edge is told to be on a line: of its border as a whole
+/// where regions meet along it, else of the place alone. The one number to say of an edge.
+double jump_that_counts(const LineEvidence& evidence, EdgeId e);
+
 /// Tests edge e of a mesh as find_sharp_edges() does under `options`, from the evidence on it.
 JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
                        const SharpLineOptions& options, EdgeId e);

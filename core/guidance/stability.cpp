@@ -106,6 +106,8 @@ Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvat
   std::sort(thresholds.begin(), thresholds.end());
   StabilityCurve curve;
   curve.trivial = mesh.diagonal() / 2.0;  // a few short lines somewhere
+  curve.usual = by_jump ? jump_threshold(evidence->noise)
+                        : default_sharp_angle(mesh, curvatures, LineMethod::walk);
   curve.points.resize(thresholds.size());
   std::mutex reporting;
   std::size_t done = 0;
@@ -260,18 +262,24 @@ std::optional<Plateau> plateau(const StabilityCurve& curve) {
     ++begin;
   if (begin == points.size() || !counts(begin)) begin = peak;  // nothing but the peak: no noise
 
-  constexpr double most_change = 1.25;
+  constexpr double most_change = 1.25, far_off = 2.0;
   std::optional<Plateau> best;
   double best_worth = 0.0;
   for (std::size_t i = begin; i < points.size(); ++i) {
     std::size_t fewest = points[i].count, most = points[i].count;
+    double size = 0.0;
     for (std::size_t j = i; j < points.size() && counts(j); ++j) {
+      size += points[j].size;
       fewest = std::min(fewest, points[j].count);
       most = std::max(most, points[j].count);
       const double change = static_cast<double>(most) / static_cast<double>(fewest);
       if (change > most_change) break;
       if (j < i + 2) continue;
-      const double worth = (place(j) - place(i)) * std::exp(-4.0 * std::log(change));
+      if (curve.usual > 0.0 && (points[j].threshold < curve.usual / far_off ||
+                                points[i].threshold > curve.usual * far_off))
+        continue;
+      const double worth = (place(j) - place(i)) * std::exp(-4.0 * std::log(change)) * size /
+                           static_cast<double>(j - i + 1);
       if (worth <= best_worth) continue;
       best_worth = worth;
       const double middle = (place(i) + place(j)) / 2.0;

@@ -27,6 +27,9 @@ struct StabilityCurve {
   bool logarithmic = false;       ///< Stretches are measured in the logarithm of the threshold.
   double trivial = 0.0;           ///< Sizes below this are next to nothing,
   std::size_t trivial_count = 0;  ///< and so are counts up to this.
+  /// The threshold that the part itself suggests; 0: none. A stretch that ends below half of it, or
+  /// begins above twice it, is not about what the part shows.
+  double usual = 0.0;
   bool operator==(const StabilityCurve&) const = default;
 };
 
@@ -60,11 +63,12 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
 
 /// The widest stretch over which the count changes least: of the stretches of three points and
 /// more over which it changes by 25 % at most, the one with the largest width * exp(-4 |log of
-/// largest to smallest count|), so that twice the width is worth a change by 19 %. Left out are
-/// the trivial ends: points with next to nothing found (for lines in all shorter than half the
-/// diagonal; for partitions a single one, or 5 % of the area) and, where others remain, those up to
-/// where the count has fallen to half its peak (noise). Nothing where there is no such stretch:
-/// many noisy scans have none.
+/// largest to smallest count|) * mean size, so that twice the width is worth a change by 19 % and a
+/// stretch over which half as much is found half as much. Left out are stretches far from the usual
+/// threshold, the trivial ends: points with next to nothing found (for lines in all shorter than
+/// half the diagonal; for partitions a single one, or 5 % of the area) and, where others remain,
+/// those up to where the count has fallen to half its peak (noise). Nothing where there is no such
+/// stretch: many noisy scans have none.
 std::optional<Plateau> plateau(const StabilityCurve& curve);
 
 }  // namespace arris

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/base/number_text.h"
 #include "core/base/parallel.h"
+#include "core/base/words.h"
 #include "core/guidance/leaks.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
@@ -34,11 +34,8 @@ constexpr double least_sharpness = 0.4, abrupt = 1.5, abrupt_edges = 3.0;
 /// Places looked at from one loose end, the cheapest first.
 constexpr std::size_t most_arrivals = 8;
 
-std::string size_text(double size) {
-  return size < 100.0 ? number_text(size, 3) : fixed_text(size, 0);
-}
-std::string mm_text(double length) { return size_text(length) + " mm"; }
-std::string area_text(double area) { return size_text(area) + " mm²"; }
+std::string mm_text(double length) { return measure_text(length) + " mm"; }
+std::string area_text(double area) { return measure_text(area) + " mm²"; }
 
 /// The vertices that span a set: those farthest out along each axis.
 std::vector<VertexId> extremes(const Mesh& mesh, const std::vector<VertexId>& vertices) {
@@ -59,7 +56,7 @@ std::vector<VertexId> extremes(const Mesh& mesh, const std::vector<VertexId>& ve
 /// Orders the items of one kind and keeps the first `most`.
 void keep_largest(std::vector<WorkItem>& items, std::size_t most) {
   std::sort(items.begin(), items.end(), [](const WorkItem& a, const WorkItem& b) {
-    if (a.size != b.size) return a.size > b.size;
+    if (a.extent != b.extent) return a.extent > b.extent;
     const VertexId x = *std::ranges::min_element(a.vertices);
     const VertexId y = *std::ranges::min_element(b.vertices);
     if (x != y) return x < y;
@@ -225,13 +222,15 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
     WorkItem item;
     item.kind = WorkKind::loose_end;
     item.size = end.length;
+    item.extent = end.length;
     item.vertices = {end.vertex};
     item.lines = {end.line};
     items.push_back(std::move(item));
   }
   const Result<LineEvidencePtr> evidence = line_evidence_of(document);
   const bool by_jump = evidence && *evidence;
-  if (!by_jump) keep_largest(items, options.most_per_kind);
+  keep_largest(items, options.most_per_kind);
+  const std::size_t with_ways = by_jump ? items.size() : options.most_with_ways;
   const double angle = (document.find_sharp_lines
                             ? document.find_sharp_lines->parameters.at("angle").get<double>()
                             : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk)) *
@@ -245,9 +244,13 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
         WorkItem& item = items[k];
         const auto end = std::ranges::find_if(
             ends.loose(), [&](const LooseEnd& e) { return e.vertex == item.vertices[0]; });
-        item.continuations = continuations.from(*end, options.most_continuations);
         item.sentence =
             "Line " + std::to_string(end->line) + " (" + mm_text(end->length) + ") just stops";
+        if (k >= with_ways) {
+          item.sentence += ".";
+          return;
+        }
+        item.continuations = continuations.from(*end, options.most_continuations);
         if (by_jump) {
           std::erase_if(item.continuations,
                         [](const Continuation& way) { return way.sharpness < least_sharpness; });
@@ -291,6 +294,7 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
     WorkItem item;
     item.kind = WorkKind::leak;
     item.size = leak.score;
+    item.extent = std::sqrt(leak.area);
     item.paths = leak.others;
     item.paths.insert(item.paths.begin(), leak.path);
     for (const std::vector<VertexId>& path : item.paths)
@@ -339,6 +343,7 @@ std::vector<WorkItem> unassigned_items(const Document& document) {
       }
     }
     item.kind = WorkKind::unassigned_area;
+    item.extent = std::sqrt(item.size);
     item.face = start;
     item.vertices = extremes(mesh, corners);
     item.partitions.assign(beside.begin(), beside.end());
@@ -373,6 +378,7 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
     WorkItem item;
     item.kind = WorkKind::undefined_boundary;
     item.size = boundary.length;
+    item.extent = boundary.length;
     item.partitions = {std::max(boundary.left, boundary.right)};
     item.sentence = "Partition " + std::to_string(item.partitions[0]) + " ends over " +
                     mm_text(boundary.length) + " where no other begins.";
@@ -392,6 +398,7 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
     WorkItem item;
     item.kind = WorkKind::sliver;
     item.size = length / width;
+    item.extent = length;
     item.partitions = {partition->id};
     item.vertices = extremes(mesh, extent.vertices);
     item.sentence = "Partition " + std::to_string(partition->id) + " is only about " +
@@ -430,6 +437,7 @@ std::vector<WorkItem> many_border_items(const Document& document, const Worklist
     WorkItem item;
     item.kind = WorkKind::many_borders;
     item.size = static_cast<double>(sides);
+    item.extent = std::sqrt(partitions[k]->area);
     item.partitions = {partitions[k]->id};
     vertices.clear();
     for (const BorderLoop& loop : outline.loops)
@@ -476,10 +484,16 @@ Result<std::vector<WorkItem>> worklist(const Document& document, const WorklistO
       return tl::unexpected<Error>(done.error());
     many = many_border_items(document, options);
   }
-  for (std::vector<WorkItem>* items : {&leaks, &loose, &unassigned, &undefined, &slivers, &many}) {
+  const double small = std::min(options.small_edges * document.mesh->mean_edge_length(),
+                                options.small_share * document.mesh->diagonal());
+  for (std::vector<WorkItem>* items : {&leaks, &loose, &unassigned, &undefined, &slivers}) {
     keep_largest(*items, options.most_per_kind);
+    for (WorkItem& item : *items) item.small = item.extent < small;
     std::move(items->begin(), items->end(), std::back_inserter(result));
   }
+  std::ranges::stable_partition(result, [](const WorkItem& item) { return !item.small; });
+  keep_largest(many, options.most_per_kind);
+  std::move(many.begin(), many.end(), std::back_inserter(result));
   context.report(1.0, "worklist");
   return result;
 }

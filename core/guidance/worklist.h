@@ -40,9 +40,13 @@ struct Continuation {
 struct WorkItem {
   WorkKind kind = WorkKind::leak;
   std::string sentence;
-  /// Ranks within the kind: score of the leak; length of the line that stops, mm; area, mm^2;
-  /// length of the boundary, mm; number of sides; length over width.
+  /// Score of the leak; length of the line that stops, mm; area, mm^2; length of the boundary, mm;
+  /// number of sides; length over width.
   double size = 0.0;
+  /// What it changes, as a length in mm, by which items rank: of the line that stops, of the
+  /// boundary, of the sliver; or the root of the area that is parted, unassigned or to be cut.
+  double extent = 0.0;
+  bool small = false;              ///< Its extent is that of noise: it comes after all that is not.
   std::vector<VertexId> vertices;  ///< To zoom to: the paths, or what spans the area.
   std::vector<std::uint32_t> lines, partitions;
   /// leak: the gaps, to be closed together. many_borders: none; see with_cuts().
@@ -52,8 +56,13 @@ struct WorkItem {
 };
 
 struct WorklistOptions {
-  std::size_t most_per_kind = 200;
+  std::size_t most_per_kind = 100000;  ///< Beyond any real part: counts are true.
+  /// Loose ends of lines found by the walk for which ways on are looked for, the longest first: on
+  /// a noisy scan there are thousands.
+  std::size_t most_with_ways = 200;
   std::size_t most_continuations = 3;
+  double small_edges = 5.0;   ///< An item is small where its extent is under this many mean edges
+  double small_share = 0.05;  ///< and under this share of the part's diagonal.
   double reach = 15.0;        ///< Of leaks and continuations, in mean edge lengths.
   int most_borderlines = 4;   ///< A partition with more, counted between corners, is listed.
   double sliver_ratio = 8.0;  ///< A partition is a sliver where length / width is above this
@@ -63,8 +72,9 @@ struct WorklistOptions {
 /// Whether an item is something that is left to mend.
 bool is_left(const WorkItem& item);
 
-/// What is left to do on a document: by kind, within a kind by decreasing size, ties by the lowest
-/// vertex. Steps that were not run leave out what depends on them. Errors: cancelled.
+/// What is left to do on a document: by kind, within a kind by decreasing extent, ties by the
+/// lowest vertex; then what is small, in the same order; partitions to be cut, which are no fault,
+/// at the end. Steps that were not run leave out what depends on them. Errors: cancelled.
 Result<std::vector<WorkItem>> worklist(const Document& document,
                                        const WorklistOptions& options = {},
                                        const Context& context = {});

@@ -68,12 +68,14 @@ std::optional<std::vector<FaceId>> smaller_side(const Mesh& mesh, const std::vec
 }
 
 /// Pieces that are no longer joined to the rest of a label, the largest piece left out. `starts`:
-/// faces of the label beside those that left it. The fronts from all of them grow in turn, so that
-/// the cost follows the small pieces (and the way round where nothing was parted).
+/// faces of the label beside those that left it. `barrier`: lines that part it; null: none do. The
+/// fronts from all of them grow in turn, so that the cost follows the small pieces (and the way
+/// round where nothing was parted).
 std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
                                                const ChunkedArray<std::uint32_t>& labels,
                                                std::uint32_t label,
-                                               const std::vector<FaceId>& starts) {
+                                               const std::vector<FaceId>& starts,
+                                               const SharpLines* barrier = nullptr) {
   DisjointSets joined(starts.size());
   std::unordered_map<FaceId, std::uint32_t> front_of;
   std::vector<std::queue<FaceId>> fronts(starts.size());
@@ -94,6 +96,7 @@ std::vector<std::vector<FaceId>> parted_pieces(const Mesh& mesh,
       for_sides(mesh, f, [&](HalfEdgeId h) {
         const FaceId g = mesh.face(Mesh::opposite(h));
         if (g == no_id || labels[g] != label) return;
+        if (barrier && barrier->is_sharp(h >> 1)) return;
         const auto [it, fresh] = front_of.try_emplace(g, k);
         if (fresh)
           fronts[k].push(g);
@@ -467,6 +470,28 @@ FaceLabels smooth_boundaries(const PartitionGround& ground, const Boundaries& bo
   }
   FaceLabels result(changed.begin(), changed.end());
   std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::pair<std::uint32_t, std::vector<std::vector<FaceId>>>> parted_by_lines(
+    const PartitionGround& ground, const std::vector<EdgeId>& edges) {
+  std::map<std::uint32_t, std::vector<FaceId>> beside;
+  for (const EdgeId e : edges) {
+    const auto [left, right] = ground.mesh.edge_faces(e);
+    if (left == no_id || right == no_id) continue;
+    const std::uint32_t label = ground.partitions.label(left);
+    if (label == 0 || ground.partitions.label(right) != label) continue;
+    beside[label].push_back(left);
+    beside[label].push_back(right);
+  }
+  std::vector<std::pair<std::uint32_t, std::vector<std::vector<FaceId>>>> result;
+  for (auto& [label, starts] : beside) {
+    std::sort(starts.begin(), starts.end());
+    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+    auto pieces =
+        parted_pieces(ground.mesh, ground.partitions.labels, label, starts, &ground.lines);
+    if (!pieces.empty()) result.emplace_back(label, std::move(pieces));
+  }
   return result;
 }
 

@@ -79,6 +79,11 @@ std::vector<FaceId> with_unassigned_round(const PartitionGround& ground,
 FaceLabels smooth_boundaries(const PartitionGround& ground, const Boundaries& boundaries,
                              const std::unordered_set<std::uint32_t>& ids, int rounds);
 
+/// Pieces, but the largest, into which sharp lines have parted the partitions beside `edges`, by
+/// id; only pieces that lie beside these edges.
+std::vector<std::pair<std::uint32_t, std::vector<std::vector<FaceId>>>> parted_by_lines(
+    const PartitionGround& ground, const std::vector<EdgeId>& edges);
+
 /// What edit_partitions() makes of changed labels.
 struct EditedPartitions {
   Partitions partitions;

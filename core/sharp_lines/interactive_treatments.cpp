@@ -143,7 +143,7 @@ Result<std::vector<VertexId>> path_through(const Mesh& mesh, const Curvatures& c
   if (points.size() < 2) return fail("A line needs two points at least.");
   for (const VertexId v : points)
     if (v >= mesh.vertex_count() || mesh.is_isolated(v))
-      return fail("Vertex " + std::to_string(v) + " is not in the working mesh.");
+      return fail("One of the points is not on the working mesh any more: click it anew.");
   std::vector<VertexId> path{points.front()};
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     if (points[k] == points[k + 1]) continue;
@@ -151,8 +151,9 @@ Result<std::vector<VertexId>> path_through(const Mesh& mesh, const Curvatures& c
         cheapest_path(mesh, curvatures, {points[k]}, {points[k + 1]}, {angle * degree},
                       std::numeric_limits<double>::infinity(), may_use);
     if (stretch.empty())
-      return fail("No path on the mesh joins vertices " + std::to_string(points[k]) + " and " +
-                  std::to_string(points[k + 1]) + ".");
+      return fail(
+          "No way leads over the mesh from one point to the next: they lie on loose pieces of the "
+          "part, or what may not be crossed lies between them.");
     path.insert(path.end(), stretch.begin() + 1, stretch.end());
   }
   if (path.size() < 2) return fail("A line needs two different points.");

@@ -288,7 +288,7 @@ TEST_F(Operations, CancelledWorkIsAnErrorThatSaysSo) {
 }
 
 TEST_F(Operations, DescriptionsAreForPeople) {
-  EXPECT_EQ(describe({"find_sharp_lines", {{"angle", 24}}}), "Find sharp lines, 24.0°");
+  EXPECT_EQ(describe({"find_sharp_lines", {{"angle", 24}}}), "Find sharp lines, 24°");
   EXPECT_EQ(describe({"open", {{"file", "/a/b/part.stl"}}}), "Open part.stl");
   EXPECT_EQ(describe({"flip_orientation", json::object()}), "Flip orientation");
 }

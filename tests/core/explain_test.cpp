@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 
+#include "core/base/words.h"
 #include "core/sharp_lines/automatic_treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
@@ -83,15 +87,14 @@ TEST(ExplainEdge, EdgesOfACubePassEveryTestAndFlatOnesFailAtTheAngle) {
       if (degrees(document, e) > 45.0) {
         ++sharp;
         EXPECT_TRUE(explanation.holds);
-        EXPECT_TRUE(contains(explanation.headline, "found; convex 90.0 degrees."))
-            << explanation.headline;
+        EXPECT_TRUE(contains(explanation.headline, "found; convex 90°.")) << explanation.headline;
         EXPECT_FALSE(explanation.tests.empty());
         for (const ExplainedTest& test : explanation.tests)
           EXPECT_TRUE(test.passed) << test.sentence;
         continue;
       }
       EXPECT_FALSE(explanation.holds);
-      EXPECT_TRUE(contains(explanation.headline, "angle of 0.0 degrees")) << explanation.headline;
+      EXPECT_TRUE(contains(explanation.headline, "angle of 0°")) << explanation.headline;
       const ExplainedTest* angle = find_test(explanation, "|IHe|");
       ASSERT_NE(angle, nullptr);
       EXPECT_FALSE(angle->passed);
@@ -114,8 +117,7 @@ TEST(ExplainEdge, ByTheJumpEdgesOfACubeCountByTheirOwnAngle) {
       ASSERT_EQ(explanation.holds, is_edge);
       if (is_edge) {
         ++sharp;
-        EXPECT_TRUE(contains(explanation.headline, "found; convex 90.0 degrees."))
-            << explanation.headline;
+        EXPECT_TRUE(contains(explanation.headline, "found; convex 90°.")) << explanation.headline;
         const ExplainedTest* angle = find_test(explanation, "Exterior angle");
         ASSERT_NE(angle, nullptr);
         EXPECT_NEAR(angle->value, 90.0, 1e-3);
@@ -165,6 +167,44 @@ TEST(ExplainEdge, ByTheJumpABorderCountsAsAWhole) {
   EXPECT_GT(borders, 300);
   EXPECT_GT(weak, 20);
   EXPECT_GT(fitted, 300);
+}
+
+/// Numbers before "°" in a text.
+std::set<std::string> angles_in(const std::string& text) {
+  std::set<std::string> found;
+  const std::string degree = "°";
+  for (std::size_t at = text.find(degree); at != std::string::npos;
+       at = text.find(degree, at + degree.size())) {
+    std::size_t begin = at;
+    while (begin > 0 && (std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0 ||
+                         text[begin - 1] == '.'))
+      --begin;
+    found.insert(text.substr(begin, at - begin));
+  }
+  return found;
+}
+
+TEST(ExplainEdge, OneAngleIsSaidOfAnEdgeBesideTheThreshold) {
+  for (const char* method : methods) {
+    SCOPED_TRACE(method);
+    const Document document = segmented_mould(method);
+    const double threshold = document.find_sharp_lines->parameters.at("angle");
+    int more = 0;
+    for (EdgeId e = 0; e < document.mesh->edge_count(); e += 7) {
+      const Explanation explanation = explain_edge(document, e);
+      std::string text = explanation.headline;
+      for (const ExplainedTest& test : explanation.tests) {
+        text += " " + test.sentence;
+        if (test.unit == "°") text += " " + degrees_in_words(test.value) + " ";
+      }
+      std::set<std::string> angles = angles_in(text);
+      const std::string own = degrees_in_words(threshold);
+      angles.erase(own.substr(0, own.find("°")));
+      more += angles.size() > 1;
+      EXPECT_LE(angles.size(), 1u) << text;
+      if (more > 3) return;
+    }
+  }
 }
 
 TEST(ExplainEdge, ByTheJumpTheLeastLengthAndCorrectionsAreNamed) {

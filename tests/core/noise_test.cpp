@@ -278,7 +278,7 @@ TEST(Defaults, AreLengthsOfThePartAndNotRounded) {
 TEST(Defaults, ReadLikeNumbersWhereTheyAreShown) {
   const Document document =
       applied(document_of(noisy(divided_cube(20.0, 12), 0.1, 3)), {"simplify"});
-  const std::string gist = find_operation("simplify")->gist(document.simplify->parameters);
+  const std::string gist = find_operation("simplify")->words(document.simplify->parameters);
   EXPECT_LE(std::count_if(gist.begin(), gist.end(), [](char c) { return c >= '1' && c <= '9'; }), 3)
       << gist;
 }

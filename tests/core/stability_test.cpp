@@ -165,6 +165,35 @@ TEST(PlateauOfACurve, IsNotFoundWhereTheCountKeepsFalling) {
   EXPECT_FALSE(plateau(curve_of({12, 12})));
 }
 
+TEST(PlateauOfACurve, IsOneThatAPersonWouldChoose) {
+  // Many lines at 25 degrees; at 75 and beyond a few are left, which stay for longer.
+  StabilityCurve curve;
+  for (int k = 0; k < 24; ++k) {
+    const double angle = 4.0 * k + 2.0;
+    const std::size_t count = angle < 18.0   ? static_cast<std::size_t>(2000.0 / (k + 1))
+                              : angle < 34.0 ? 60
+                              : angle < 66.0 ? static_cast<std::size_t>(60 - 2 * (k - 8))
+                                             : 20;
+    curve.points.push_back({angle, count, 10.0 * static_cast<double>(count)});
+  }
+  const auto flat = plateau(curve);
+  ASSERT_TRUE(flat);
+  EXPECT_LE(flat->from, 25.0);
+  EXPECT_GE(flat->to, 25.0);
+  // Where the part itself says 25, nothing is offered far from it.
+  for (StabilityPoint& point : curve.points)
+    if (point.threshold < 66.0) point.count = static_cast<std::size_t>(4000.0 / point.threshold);
+  curve.usual = 25.0;
+  const auto near = plateau(curve);
+  if (near) {
+    EXPECT_LE(near->from, 50.0);
+    EXPECT_GE(near->to, 12.5);
+  }
+  curve.usual = 0.0;
+  ASSERT_TRUE(plateau(curve));
+  EXPECT_GT(plateau(curve)->from, 60.0) << "so that the test can fail";
+}
+
 TEST(PlateauOfACurve, LeavesOutNextToNothing) {
   StabilityCurve curve = curve_of({800, 400, 200, 90, 40, 2, 2, 2, 2, 2});
   EXPECT_TRUE(plateau(curve));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <set>
 
 #include "core/base/random.h"
@@ -371,6 +373,196 @@ TEST(ExtendPartition, GrowsIntoUnassignedFacesOnly) {
       }
   }
   EXPECT_GT(before, plane->faces);
+}
+
+/// A plane with bumps of which each is left unassigned until it is filled or extended into.
+Document bumpy_document(const std::vector<Point>& bumps) {
+  const auto place = [&](double x, double y) {
+    double z = 0.0;
+    for (const Point& bump : bumps) {
+      const double r2 = (x - bump.x()) * (x - bump.x()) + (y - bump.y()) * (y - bump.y());
+      z += 3.0 * std::exp(-r2 / 20.0);
+    }
+    return Point(x, y, z);
+  };
+  return applied(
+      document_of(testing::shaped_lattice(40.0, 1.0, place)),
+      {"find_partitions", {{"intervals", {{0.0, 1e-3}}}, {"min_faces", 10}, {"fill_holes", 0}}});
+}
+
+PartitionPtr largest_of(const Document& document) {
+  return *std::max_element(document.partitions.partitions.begin(),
+                           document.partitions.partitions.end(),
+                           [](const auto& a, const auto& b) { return a->area < b->area; });
+}
+
+TEST(ExtendPartition, MadeForALittleIsNotDoneAgainWhereItWouldFlood) {
+  const Document document = bumpy_document({Point(15.0, 15.0, 0.0)});
+  const PartitionPtr plane = largest_of(document);
+  Document extended = applied(
+      document, {"extend_partition", {{"partition", plane->id}, {"interval", {0.0, 5e-3}}}});
+  const double meant = extended.partitions.find(plane->id)->area - plane->area;
+  ASSERT_GT(meant, 0.0);
+  const json& stored = extended.corrections.back()->operation.parameters;
+  ASSERT_TRUE(stored.at("areas").is_array());
+  EXPECT_NEAR(stored.at("areas")[0].get<double>(), meant, 1e-9);
+  // Found again under an interval that leaves most of the plane to it.
+  const Document again = applied(
+      extended,
+      {"find_partitions", {{"intervals", {{0.0, 1e-9}}}, {"min_faces", 10}, {"fill_holes", 0}}});
+  const Correction& correction = *again.corrections.back();
+  EXPECT_NE(correction.state, CorrectionState::applied);
+  EXPECT_FALSE(correction.message.empty());
+  // Found as before it is what it was.
+  const Document back = applied(again, {"find_partitions", extended.find_partitions->parameters});
+  EXPECT_EQ(back.corrections.back()->state, CorrectionState::applied)
+      << back.corrections.back()->message;
+  expect_invariants(back);
+}
+
+TEST(ExtendPartition, TakesSeveralAtOnce) {
+  // Both sides of a roof, each with a bump of its own.
+  Document document = document_of(testing::roof(0.8, 10.0, 30.0, 1.0));
+  document = applied(document, {"find_sharp_lines", {{"angle", 20.0}, {"min_length", 0.0}}});
+  document =
+      applied(document, {"find_partitions", {{"intervals", {{0.0, 1.0}}}, {"min_faces", 1}}});
+  ASSERT_EQ(document.partitions.partitions.size(), 2u);
+  std::vector<std::uint32_t> ids;
+  for (const PartitionPtr& partition : document.partitions.partitions) {
+    ids.push_back(partition->id);
+    const Mesh& mesh = *document.mesh;
+    const std::vector<FaceId> faces = faces_of(mesh, document.partitions, *partition);
+    const VertexId inside = mesh.triangle(faces[faces.size() / 2])[0];
+    document = applied(
+        document, {"paint_partition",
+                   {{"partition", 0u}, {"region", {{"vertices", {inside}}, {"radius", 1.2}}}}});
+  }
+  ASSERT_LT(assigned_share(document), 0.999);
+  const Document extended =
+      applied(document, {"extend_partition", {{"partitions", ids}, {"interval", {0.0, 1.0}}}});
+  EXPECT_NEAR(assigned_share(extended), 1.0, 1e-9);
+  EXPECT_EQ(extended.partitions.partitions.size(), 2u);
+  expect_invariants(extended);
+}
+
+TEST(FillUnassigned, GivesEachAreaToTheNeighbourItBelongsTo) {
+  Document document = cube_document();
+  const Mesh& mesh = *document.mesh;
+  const PartitionPtr side = document.partitions.partitions[0];
+  const std::vector<FaceId> faces = faces_of(mesh, document.partitions, *side);
+  const VertexId inside = mesh.triangle(faces[faces.size() / 2])[0];
+  const Document holed = applied(
+      document, {"paint_partition",
+                 {{"partition", 0u}, {"region", {{"vertices", {inside}}, {"radius", 1.2}}}}});
+  ASSERT_LT(assigned_share(holed), 1.0);
+  const Document filled = applied(holed, {"fill_unassigned", json::object()});
+  EXPECT_NEAR(assigned_share(filled), 1.0, 1e-12);
+  for (FaceId f = 0; f < mesh.face_count(); ++f)
+    EXPECT_EQ(filled.partitions.label(f), document.partitions.label(f));
+  expect_invariants(filled);
+  // An area as large as a whole side stays where only smaller ones are asked for, and where lines
+  // enclose it altogether.
+  const Document bare = applied(document, {"remove_partitions", {{"partitions", {side->id}}}});
+  EXPECT_EQ(applied(bare, {"fill_unassigned", {{"faces", 5}}}).partitions.partitions.size(), 5u);
+  const Document kept = applied(bare, {"fill_unassigned", json::object()});
+  EXPECT_LT(assigned_share(kept), 0.9);
+  EXPECT_NE(kept.corrections.back()->message.find("sharp lines"), std::string::npos);
+  EXPECT_TRUE(apply(document, {"fill_unassigned", json::object()}).error().nothing_to_do);
+}
+
+TEST(RemoveSmall, CanLeaveWhatItTakesToTheNeighbours) {
+  const Document document = cube_document();
+  const Mesh& mesh = *document.mesh;
+  const PartitionPtr side = document.partitions.partitions[0];
+  // A small piece cut off the side.
+  const std::vector<FaceId> faces = faces_of(mesh, document.partitions, *side);
+  const VertexId inside = mesh.triangle(faces[faces.size() / 2])[0];
+  Document parted =
+      applied(document,
+              {"recompute_partitions",
+               {{"region", {{"vertices", {inside}}, {"radius", 1.2}}}, {"interval", {0.0, 1.0}}}});
+  ASSERT_GT(parted.partitions.partitions.size(), 6u);
+  const json holes{{"faces", 60}}, filled{{"faces", 60}, {"fill", true}};
+  EXPECT_LT(assigned_share(applied(parted, {"remove_small_partitions", holes})), 1.0);
+  const Document whole = applied(parted, {"remove_small_partitions", filled});
+  EXPECT_NEAR(assigned_share(whole), 1.0, 1e-12);
+  EXPECT_EQ(whole.partitions.partitions.size(), 6u);
+  expect_invariants(whole);
+}
+
+TEST(DrawLine, PartsThePartitionsItRunsThroughAtOnce) {
+  // Two sides of a cube run into one through a gap in the line between them.
+  Document document = cube_document();
+  const Line& line = *document.lines.lines.front();
+  const std::vector<VertexId> path = line.vertices;
+  document = applied(document, {"delete_lines", {{"lines", {line.id}}}});
+  document =
+      applied(document,
+              {"draw_line", {{"vertices", std::vector<VertexId>(path.begin(), path.begin() + 4)}}});
+  document =
+      applied(document, {"find_partitions", {{"intervals", {{0.0, 1e9}}}, {"min_faces", 1}}});
+  ASSERT_EQ(document.partitions.partitions.size(), 5u);
+  const std::vector<VertexId> rest(path.begin() + 3, path.end());
+  // Not there yet: nothing is parted.
+  const std::vector<VertexId> half(rest.begin(), rest.begin() + 3);
+  EXPECT_EQ(applied(document, {"draw_line", {{"vertices", half}}}).partitions.partitions.size(),
+            5u);
+  const Document closed = applied(document, {"draw_line", {{"vertices", rest}}});
+  EXPECT_EQ(closed.partitions.partitions.size(), 6u);
+  EXPECT_FALSE(closed.find_partitions->out_of_date);
+  expect_invariants(closed);
+  for (const PartitionPtr& partition : closed.partitions.partitions)
+    EXPECT_NEAR(partition->area, 100.0, 1e-9);
+  // Several lines are one operation, and finding again gives the same sides.
+  const std::vector<VertexId> other(rest.begin() + 2, rest.end());
+  const Document both = applied(document, {"draw_line", {{"paths", {half, other}}}});
+  EXPECT_EQ(both.partitions.labels, closed.partitions.labels);
+  EXPECT_EQ(both.corrections.size(), document.corrections.size() + 1);
+  const Document again = applied(both, {"find_partitions", both.find_partitions->parameters});
+  EXPECT_EQ(again.partitions.partitions.size(), 6u);
+}
+
+TEST(Words, OfTheHistoryTellWhatAndHowMany) {
+  const auto said = [](const char* name, const json& parameters) {
+    return describe({name, parameters});
+  };
+  std::vector<std::uint32_t> many(24);
+  std::iota(many.begin(), many.end(), 1u);
+  EXPECT_EQ(said("delete_lines", {{"lines", {3u}}}), "Delete line 3");
+  EXPECT_EQ(said("delete_lines", {{"lines", {3u, 4u}}}), "Delete lines 3 and 4");
+  EXPECT_EQ(said("delete_lines", {{"lines", many}}), "Delete 24 lines");
+  EXPECT_EQ(said("extend_partition", {{"partition", 7u}, {"interval", {0.0, 0.23651}}}),
+            "Extend partition 7, 0 to 0.237");
+  EXPECT_EQ(said("find_partitions",
+                 {{"criterion", "kabs"}, {"intervals", {{0.0, 0.236}, {0.236, nullptr}}}}),
+            "Find partitions, Kabs 0 to 0.236, above 0.236");
+  EXPECT_EQ(said("draw_line", {{"paths", {{1, 2}, {3, 4}}}}), "Draw 2 lines");
+  EXPECT_EQ(said("remove_partitions", {{"partitions", many}}), "Remove 24 partitions");
+  EXPECT_EQ(said("lock", {{"lines", {5u}}, {"locked", false}}), "Unlock line 5");
+  EXPECT_EQ(said("remove_small_partitions", {{"faces", 20}, {"fill", true}}),
+            "Give partitions under 20 faces to their neighbours");
+  for (const OperationKind& kind : operation_table()) {
+    const std::string text = said(std::string(kind.name).c_str(), json::object());
+    EXPECT_FALSE(text.empty());
+    EXPECT_EQ(text.find('_'), std::string::npos) << text;
+  }
+}
+
+TEST(SplitPartition, SaysInPlainWordsWhichPointIsElsewhere) {
+  const Document document = cube_document();
+  const Mesh& mesh = *document.mesh;
+  const auto inside = [&](std::size_t side) {
+    const std::vector<FaceId> faces =
+        faces_of(mesh, document.partitions, *document.partitions.partitions[side]);
+    return mesh.triangle(faces[faces.size() / 2])[0];
+  };
+  const auto refused = apply(document, {"split_partition",
+                                        {{"partition", document.partitions.partitions[0]->id},
+                                         {"vertices", {inside(0), inside(1)}}}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("The second point is on another partition"),
+            std::string::npos)
+      << refused.error().message;
 }
 
 TEST(SplitAndPaint, PartAPartitionAndTakeItsFaces) {

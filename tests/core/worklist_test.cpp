@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <tuple>
 
+#include "core/guidance/line_ends.h"
 #include "core/partitions/boundaries.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
@@ -191,21 +194,40 @@ TEST(Worklist, ComesByKindAndSizeAndIsBounded) {
   const auto all = value_of(worklist(document));
   const auto few = value_of(worklist(document, options));
   ASSERT_FALSE(few.empty());
-  for (std::size_t k = 1; k < all.size(); ++k) {
-    EXPECT_LE(all[k - 1].kind, all[k].kind);
-    EXPECT_TRUE(all[k - 1].kind != all[k].kind || all[k - 1].size >= all[k].size);
-  }
+  // What is small comes after all that is not, what is no fault last.
+  const auto place = [](const WorkItem& item) {
+    return std::tuple(!is_left(item), item.small, item.kind, -item.extent);
+  };
+  for (std::size_t k = 1; k < all.size(); ++k) EXPECT_LE(place(all[k - 1]), place(all[k]));
   for (const WorkItem& item : all) {
     EXPECT_FALSE(item.vertices.empty());
     EXPECT_TRUE(item.sentence.ends_with(".")) << item.sentence;
     for (const std::uint32_t id : item.lines) EXPECT_NE(document.lines.find(id), nullptr);
     for (const std::uint32_t id : item.partitions) EXPECT_NE(document.partitions.find(id), nullptr);
   }
+  EXPECT_TRUE(std::ranges::any_of(all, [](const WorkItem& item) { return !item.small; }));
   for (int kind = 0; kind < 6; ++kind) {
     const auto some = items_of(few, static_cast<WorkKind>(kind));
     const auto whole = items_of(all, static_cast<WorkKind>(kind));
     ASSERT_EQ(some.size(), std::min<std::size_t>(5, whole.size()));
     for (std::size_t k = 0; k < some.size(); ++k) EXPECT_EQ(some[k].sentence, whole[k].sentence);
+  }
+}
+
+TEST(Worklist, CountsAreTrueAndNoiseComesAtTheEnd) {
+  // Noise over a threshold that is far too low: hundreds of scraps of line, and the box's own.
+  Document document = document_of(noisy(divided_cube(10.0, 24), 0.12, 7));
+  document = applied(
+      document, {"find_sharp_lines", {{"method", "walk"}, {"angle", 12.0}, {"min_length", 0.0}}});
+  const LineEnds ends(*document.mesh, document.lines);
+  ASSERT_GT(ends.loose().size(), 250u);
+  const auto items = value_of(worklist(document));
+  EXPECT_EQ(items_of(items, WorkKind::loose_end).size(), ends.loose().size());
+  EXPECT_TRUE(items.back().small);
+  double before = std::numeric_limits<double>::infinity();
+  for (const WorkItem& item : items) {
+    EXPECT_LE(item.extent, before);
+    before = item.extent;
   }
 }
 

@@ -6,14 +6,18 @@
 #include <QCheckBox>
 #include <QDir>
 #include <QDockWidget>
+#include <QLabel>
 #include <QPushButton>
+#include <QTableView>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTreeWidget>
 
 #include "core/mesh/write_ply.h"
+#include "core/partitions/interactive_treatments.h"
 #include "tests/support/meshes.h"
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/controls.h"
 #include "ui/panels/corrections_panel.h"
 #include "ui/panels/explanation_panel.h"
 #include "ui/panels/profile_chart.h"
@@ -93,6 +97,185 @@ TEST_F(GuidanceTest, ALooseEndIsListedZoomedToAndClosedByOneKey) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
   for (const WorkItem& item : window->worklist().items())
     EXPECT_NE(item.kind, WorkKind::loose_end) << item.sentence;
+}
+
+TEST_F(GuidanceTest, AcceptingALeakIsOneUndoAndPartsWhatItTouches) {
+  // Two gaps in one edge of the box, through both of which two sides run into one.
+  const Line& line = *document().lines.lines.front();
+  const std::vector<VertexId> path = line.vertices;
+  ASSERT_EQ(path.size(), 11u);
+  const auto stretch = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
+    return std::vector<VertexId>(path.begin() + from, path.begin() + to + 1);
+  };
+  run({{"delete_lines", {{"lines", {line.id}}}},
+       {"draw_line", {{"paths", {stretch(0, 2), stretch(4, 6), stretch(8, 10)}}}},
+       {"find_partitions", {{"method", "fronts"}, {"intervals", {{0.0, 1e9}}}, {"min_faces", 1}}}});
+  ASSERT_EQ(document().partitions.partitions.size(), 5u);
+  const std::string before = hash_of(document());
+  const std::uint32_t ran = rows();
+  QTest::keyClick(window.get(), Qt::Key_F7);
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->current_row() >= 0; }, patience));
+  const WorkItem& leak = window->worklist().items()[0];
+  ASSERT_EQ(leak.kind, WorkKind::leak) << leak.sentence;
+  ASSERT_EQ(leak.paths.size(), 2u);
+  QTest::keyClick(window.get(), Qt::Key_A);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() > ran && idle(); }, patience));
+  EXPECT_EQ(rows(), ran + 1) << "one entry of the history for both gaps";
+  EXPECT_EQ(document().partitions.partitions.size(), 6u) << "without F5";
+  EXPECT_FALSE(document().find_partitions->out_of_date);
+  EXPECT_NEAR(sharp_length(), 120.0, 1e-9);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  EXPECT_TRUE(std::ranges::none_of(window->worklist().items(), is_left));
+  QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && hash_of(document()) == before; }, patience));
+}
+
+TEST_F(GuidanceTest, SevenAcceptsInARowLeaveNoDoubledLine) {
+  // Every edge of the box with a gap in its middle.
+  std::vector<Operation> operations;
+  std::vector<std::vector<VertexId>> stubs;
+  std::vector<std::uint32_t> ids;
+  for (const LinePtr& line : document().lines.lines) {
+    const std::vector<VertexId>& path = line->vertices;
+    stubs.emplace_back(path.begin(), path.begin() + 5);
+    stubs.emplace_back(path.begin() + 7, path.end());
+    ids.push_back(line->id);
+  }
+  run({{"delete_lines", {{"lines", ids}}},
+       {"draw_line", {{"paths", stubs}}},
+       {"find_partitions", {{"method", "fronts"}, {"intervals", {{0.0, 1e9}}}, {"min_faces", 1}}}});
+  QTest::keyClick(window.get(), Qt::Key_F7);
+  auto* panel = window->findChild<WorklistPanel*>();
+  for (int k = 0; k < 7; ++k) {
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return idle() && window->worklist().is_current() && panel->current_row() >= 0; },
+        patience));
+    if (!is_left(window->worklist().items()[static_cast<std::size_t>(panel->current_row())])) break;
+    QTest::keyClick(window.get(), Qt::Key_A);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
+  }
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  EXPECT_GT(sharp_length(), 96.0 + 12.0);
+  // Lines run along the edges of the box alone: nowhere twice, nowhere across a side.
+  const Mesh& mesh = *document().mesh;
+  for (EdgeId e = 0; e < mesh.edge_count(); ++e) {
+    if (!document().lines.is_sharp(e)) continue;
+    const Point middle = (mesh.point(mesh.edge(e)[0]) + mesh.point(mesh.edge(e)[1])) / 2.0;
+    int on_sides = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      on_sides += middle[axis] == mesh.box_min()[axis] || middle[axis] == mesh.box_max()[axis];
+    EXPECT_GE(on_sides, 2) << middle.transpose();
+  }
+}
+
+TEST_F(GuidanceTest, TheWorklistIsDismissedByKeyAndBySizeAndCountsAgree) {
+  make_loose_end();
+  QTest::keyClick(window.get(), Qt::Key_F7);
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->current_row() >= 0; }, patience));
+  const auto left = [&] { return std::ranges::count_if(window->worklist().items(), is_left); };
+  const auto said = [&](const QString& text) {
+    for (const auto* label : panel->findChildren<QLabel*>())
+      if (label->text().contains(text)) return true;
+    return false;
+  };
+  const auto count = left();
+  ASSERT_GE(count, 1);
+  QAction* dismiss = nullptr;
+  for (QAction* a : window->findChildren<QAction*>())
+    if (a->text() == "&Dismiss") dismiss = a;
+  ASSERT_TRUE(dismiss);
+  EXPECT_TRUE(dismiss->isEnabled());
+  QTest::keyClick(window.get(), Qt::Key_A, Qt::ShiftModifier);
+  EXPECT_EQ(left(), count - 1);
+  EXPECT_TRUE(said("(1 dismissed)"));
+  window->worklist().bring_back();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
+  EXPECT_EQ(left(), count);
+  EXPECT_FALSE(said("dismissed)"));
+  // All under a size at once: larger than the box, so that nothing stays.
+  auto* under = panel->findChild<NumberBox*>();
+  under->setFocus();
+  under->selectAll();
+  QTest::keyClicks(under, "1000");
+  for (auto* button : panel->findChildren<QPushButton*>())
+    if (button->text() == "Dismiss all under") QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_EQ(left(), 0);
+  EXPECT_TRUE(said(QString("(%1 dismissed)").arg(count)));
+  EXPECT_TRUE(said("nothing left"));
+}
+
+TEST_F(GuidanceTest, NumberKeysTurnTheViewUnlessThereIsAChoice) {
+  make_loose_end();
+  QTest::keyClick(window.get(), Qt::Key_F7);
+  auto* panel = window->findChild<WorklistPanel*>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel->current_row() >= 0; }, patience));
+  auto* list = panel->findChild<QTreeWidget*>();
+  list->setFocus();
+  const auto& items = window->worklist().items();
+  const auto alone = std::ranges::find_if(
+      items, [](const WorkItem& item) { return item.continuations.size() <= 1; });
+  if (alone == items.end()) GTEST_SKIP() << "every item has several ways on";
+  while (panel->current_row() != alone - items.begin()) QTest::keyClick(window.get(), Qt::Key_F7);
+  list->setFocus();
+  QTest::keyClick(list, Qt::Key_5);
+  EXPECT_LT((window->view().towards_viewer() - Point::UnitZ()).norm(), 1e-9);
+  QTest::keyClick(list, Qt::Key_1);
+  EXPECT_LT((window->view().towards_viewer() + Point::UnitY()).norm(), 1e-9);
+}
+
+TEST_F(GuidanceTest, WhatIsChosenInATableComesIntoSight) {
+  window->view().look_from(MeshView::StandardView::front);
+  auto* table = window->findChild<QDockWidget*>("lines")->findChild<QTableView*>();
+  window->findChild<QDockWidget*>("lines")->raise();
+  QTest::qWait(50);
+  for (int row = 0; row < table->model()->rowCount(); ++row) {
+    const QRect cell = table->visualRect(table->model()->index(row, 0));
+    table->scrollTo(table->model()->index(row, 0));
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(table->model()->index(row, 0)).center());
+    ASSERT_EQ(window->elements().selected_lines().size(), 1u) << cell.x();
+    const Line* line = document().lines.find(*window->elements().selected_lines().begin());
+    EXPECT_TRUE(window->view().sees(line->vertices)) << row;
+  }
+}
+
+TEST_F(GuidanceTest, PartitionsFoundBeforeTheLinesChangedStayInViewGreyed) {
+  window->view().set_lines_visible(false);
+  QTest::keyClick(window.get(), Qt::Key_P);
+  const auto saturation = [&] {
+    const QImage image = window->view().grabFramebuffer();
+    return image.pixelColor(image.width() / 2, image.height() / 2 + 20).hsvSaturationF();
+  };
+  window->view().look_from(MeshView::StandardView::front);
+  const auto before = saturation();
+  ASSERT_GT(before, 0.15F);
+  const std::size_t count = document().partitions.partitions.size();
+  run({{"find_sharp_lines", {{"angle", 40.0}}}});
+  EXPECT_EQ(document().partitions.partitions.size(), count);
+  EXPECT_LT(saturation(), 0.7F * before);
+  EXPECT_GT(saturation(), 0.02F);
+  run({{"find_partitions", document().find_partitions->parameters}});
+  EXPECT_GT(saturation(), 0.9F * before);
+}
+
+TEST_F(GuidanceTest, UnassignedAreasAreFilledFromTheMenuWithAPreview) {
+  const Mesh& mesh = *document().mesh;
+  const std::vector<FaceId> faces =
+      faces_of(mesh, document().partitions, *document().partitions.partitions[0]);
+  const VertexId inside = mesh.triangle(faces[faces.size() / 2])[0];
+  run({{"paint_partition",
+        {{"partition", 0u}, {"region", {{"vertices", {inside}}, {"radius", 1.2}}}}}});
+  ASSERT_LT(assigned_share(document()), 1.0);
+  const std::uint32_t before = rows();
+  QTest::keyClick(window.get(), Qt::Key_I, Qt::ShiftModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->session().is_previewing(); }, patience));
+  EXPECT_NEAR(assigned_share(shown()), 1.0, 1e-9);
+  EXPECT_LT(assigned_share(document()), 1.0);
+  QTest::keyClick(window.get(), Qt::Key_Return);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
+  EXPECT_NEAR(assigned_share(document()), 1.0, 1e-9);
 }
 
 TEST_F(GuidanceTest, WhatIsDismissedStaysOffTheList) {

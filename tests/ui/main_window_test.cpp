@@ -256,7 +256,7 @@ TEST_F(MainWindowTest, DraggingTheAngleOfTheWalkLeavesOneHistoryEntry) {
   window->set_field(Field::ihe);
   HistogramPanel& histogram = window->histogram();
   ASSERT_EQ(histogram.handles().size(), 1u);
-  EXPECT_TRUE(histogram.handles()[0].reading.startsWith("TV_IK"));
+  EXPECT_TRUE(histogram.handles()[0].reading(30.0).startsWith("TV_IK"));
   const double before = histogram.handles()[0].value;
   const QPoint start = histogram.handle_position(0);
   QTest::mousePress(&histogram, Qt::LeftButton, {}, start);

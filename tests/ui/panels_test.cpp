@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,11 @@ TEST(Numbers, EditorTextsReadBackAsTheirValue) {
 // ---- histogram
 // -----------------------------------------------------------------------------------
 
+/// A reading that says the same whatever the value.
+std::function<QString(double)> said(const char* text) {
+  return [text](double) { return QString(text); };
+}
+
 class HistogramPanelTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -97,8 +103,8 @@ class HistogramPanelTest : public ::testing::Test {
     histogram.weights.assign(100, 0.01);
     histogram.title = "H (1/mm)";
     panel_.set_histogram(histogram, ColourScale());
-    panel_.set_handles({{"Kmin", "Least", 0.25, 0.0, 1.0, "r = 4 mm"},
-                        {"Kmax", "Most", 0.75, 0.0, 1.0, "r = 1.333 mm"}});
+    panel_.set_handles({{"Kmin", "Least", 0.25, 0.0, 1.0, said("r = 4 mm")},
+                        {"Kmax", "Most", 0.75, 0.0, 1.0, said("r = 1.333 mm")}});
     show(panel_, 900, 180);
   }
 
@@ -152,7 +158,7 @@ TEST_F(HistogramPanelTest, AClickMovesNothing) {
 }
 
 TEST_F(HistogramPanelTest, DraggingStaysInTheHandlesRange) {
-  panel_.set_handles({{"Kmin", "", 0.25, 0.2, 0.5, ""}, {"Kmax", "", 0.75, 0.0, 1.0, ""}});
+  panel_.set_handles({{"Kmin", "", 0.25, 0.2, 0.5, {}}, {"Kmax", "", 0.75, 0.0, 1.0, {}}});
   press(0);
   QTest::mouseMove(&panel_, QPoint(5000, 90));
   EXPECT_EQ(panel_.handles()[0].value, 0.5);
@@ -198,10 +204,10 @@ TEST_F(HistogramPanelTest, AnswersDuringADragDoNotPullTheHandleBack) {
   const double value = panel_.handles()[0].value;
   auto stale = panel_.handles();
   stale[0].value = 0.26;
-  stale[0].reading = "r = 3.9 mm";
+  stale[0].reading = [](double shown) { return QString::number(2.0 * shown); };
   panel_.set_handles(stale);
   EXPECT_EQ(panel_.handles()[0].value, value);
-  EXPECT_EQ(panel_.handles()[0].reading, "r = 3.9 mm");
+  EXPECT_EQ(panel_.handles()[0].reading(1.5), "3");
   QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(80, 0));
   EXPECT_EQ(finished_.size(), 1);
 }
@@ -209,7 +215,7 @@ TEST_F(HistogramPanelTest, AnswersDuringADragDoNotPullTheHandleBack) {
 TEST_F(HistogramPanelTest, OtherHandlesEndADragInSilence) {
   press(1);
   QTest::mouseMove(&panel_, panel_.handle_position(1) - QPoint(80, 0));
-  panel_.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, ""}});
+  panel_.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, {}}});
   QTest::mouseMove(&panel_, QPoint(300, 90));
   QTest::mouseRelease(&panel_, Qt::LeftButton, {}, QPoint(300, 90));
   EXPECT_EQ(finished_.size() + cancelled_.size(), 0);
@@ -309,9 +315,9 @@ TEST_F(HistogramPanelTest, LabelsNeitherOverlapNorLeaveThePanel) {
     panel_.resize(width, 180);
     for (const auto& [low, high] : {std::pair(0.0, 0.0), std::pair(0.5, 0.51), std::pair(1.0, 1.0),
                                     std::pair(0.0, 1.0), std::pair(0.9, 0.1)}) {
-      panel_.set_handles({{"Kmin", "", low, 0.0, 1.0, "r = 123.4 mm"},
-                          {"Kmax", "", high, 0.0, 1.0, "r = 0.001234 mm"},
-                          {"TV_IH", "", 0.5, 0.0, 1.0, "24.0°"}});
+      panel_.set_handles({{"Kmin", "", low, 0.0, 1.0, said("r = 123.4 mm")},
+                          {"Kmax", "", high, 0.0, 1.0, said("r = 0.001234 mm")},
+                          {"TV_IH", "", 0.5, 0.0, 1.0, said("24.0°")}});
       for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(panel_.rect().contains(panel_.label_rectangle(i))) << width << " " << i;
         for (int k = 0; k < i; ++k) {
@@ -324,7 +330,7 @@ TEST_F(HistogramPanelTest, LabelsNeitherOverlapNorLeaveThePanel) {
 }
 
 TEST_F(HistogramPanelTest, OfTwoHandlesOnOneSpotTheOneWithRoomIsTaken) {
-  panel_.set_handles({{"Kmin", "", 0.0, 0.0, 1.0, ""}, {"Kmax", "", 0.0, 0.0, 1.0, ""}});
+  panel_.set_handles({{"Kmin", "", 0.0, 0.0, 1.0, {}}, {"Kmax", "", 0.0, 0.0, 1.0, {}}});
   QPoint start = panel_.handle_position(0);
   press(0);
   QTest::mouseMove(&panel_, start + QPoint(60, 0));
@@ -340,7 +346,7 @@ TEST(HistogramPanel, TheLowEndOfALogarithmicAxisMeansZero) {
   histogram.weights.assign(60, 1.0 / 60);
   histogram.logarithmic = true;
   panel.set_histogram(histogram, ColourScale());
-  panel.set_handles({{"Kmin", "", 1e-3, 0.0, 100.0, ""}});
+  panel.set_handles({{"Kmin", "", 1e-3, 0.0, 100.0, {}}});
   show(panel, 900, 180);
   QTest::mousePress(&panel, Qt::LeftButton, {}, panel.handle_position(0));
   QTest::mouseMove(&panel, panel.handle_position(0) - QPoint(100, 0));
@@ -369,7 +375,7 @@ TEST(HistogramPanel, TakesAnyHistogram) {
   odd[6].weights = {nan, 1};
   odd[6].logarithmic = true;
   HistogramPanel panel;
-  panel.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, ""}, {"TV_IK", "", 1e9, 2.0, 1.0, ""}});
+  panel.set_handles({{"TV_IH", "", 0.5, 0.0, 1.0, {}}, {"TV_IK", "", 1e9, 2.0, 1.0, {}}});
   for (const Histogram& histogram : odd) {
     panel.set_histogram(histogram, ColourScale());
     for (const int width : {10, 240, 900}) {

@@ -100,15 +100,153 @@ TEST_F(MeshViewTest, ColoursBetweenVerticesFollowTheScaleToo) {
   }
 }
 
-TEST_F(MeshViewTest, UndefinedIsGrey) {
-  const MeshPtr mesh = plane(10.0, 1.0);
-  view_.set_mesh(mesh, false);
-  view_.look_from(MeshView::StandardView::top);
+/// Pixels well inside what `image` shows of the wanted part of the mesh.
+std::vector<QRgb> inner_pixels(MeshView& view, const QImage& image,
+                               const std::function<bool(const Pick&)>& wanted) {
+  std::vector<QRgb> pixels;
+  const double ratio = view.devicePixelRatio();
+  const auto is_wanted = [&](int x, int y) {
+    const auto pick = view.pick({x, y});
+    return pick && wanted(*pick);
+  };
+  constexpr int margin = 3;
+  for (int y = margin; y < view.height() - margin; y += 5)
+    for (int x = margin; x < view.width() - margin; x += 5)
+      if (is_wanted(x, y) && is_wanted(x - margin, y) && is_wanted(x + margin, y) &&
+          is_wanted(x, y - margin) && is_wanted(x, y + margin))
+        pixels.push_back(image.pixel(QPoint(qRound(x * ratio), qRound(y * ratio))));
+  return pixels;
+}
+
+int spread(const std::vector<QRgb>& pixels) {
+  int most = 0;
+  for (const QRgb pixel : pixels) most = std::max(most, difference(pixel, pixels.front()));
+  return most;
+}
+
+TEST_F(MeshViewTest, ColoursOfAFieldAreThoseOfTheScaleWhateverWayTheSurfaceFaces) {
+  const MeshPtr mesh = mesh_of(testing::icosphere(10.0, 4));
+  view_.set_mesh(mesh, true);
+  view_.set_scalar_bar_visible(false);
+  ViewField field = field_of(*mesh, [](const Point&) { return 0.4; });
+  field.scale.map = ColourMap::viridis;
+  view_.set_field(field);
+  const auto inside = [](const Pick& pick) { return pick.face != no_id; };
+  const QRgb colour = rgb(field.scale.colour(0.4));
+  std::size_t count = 0;
+  for (const QRgb pixel : inner_pixels(view_, grab(), inside)) {
+    EXPECT_LE(difference(pixel, colour), 3);
+    ++count;
+  }
+  EXPECT_GT(count, 500u);
+  view_.set_fields_lit(true);
+  EXPECT_GT(spread(inner_pixels(view_, grab(), inside)), 40) << "light shows the shape";
+}
+
+TEST_F(MeshViewTest, UndefinedIsHatchedSoThatNoColourUnderAnyLightLooksLikeIt) {
+  const MeshPtr mesh = mesh_of(testing::icosphere(10.0, 4));
+  view_.set_mesh(mesh, true);
+  view_.set_scalar_bar_visible(false);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ViewField field = field_of(*mesh, [&](const Point&) { return nan; });
   field.scale.undefined = QColor(120, 130, 140);
+  for (const bool lit : {false, true}) {
+    view_.set_fields_lit(lit);
+    view_.set_field(field);
+    const QImage image = grab();
+    // Two tones, side by side wherever one looks.
+    for (const QPoint at : {middle(), middle() + QPoint(80, 0), middle() - QPoint(50, 60)}) {
+      int dark = 0, light = 0;
+      for (int k = -12; k <= 12; ++k) {
+        const QRgb pixel = image.pixel(at + QPoint(k, 0));
+        dark += difference(pixel, qRgb(120, 130, 140)) <= 4;
+        light += qRed(pixel) > 180;
+      }
+      EXPECT_GE(dark, 8) << lit;
+      EXPECT_GE(light, 8) << lit;
+    }
+  }
+}
+
+TEST_F(MeshViewTest, FlatSidesOfAWeldedCubeLookFlat) {
+  for (const int divisions : {1, 4}) {
+    const MeshPtr mesh = divisions == 1 ? mesh_of(testing::cube(10.0))
+                                        : mesh_of(testing::divided_cube(10.0, divisions));
+    view_.set_mesh(mesh, false);
+    view_.look_from(MeshView::StandardView::isometric);
+    const QImage image = grab();
+    std::vector<QRgb> sides;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double end : {0.0, 10.0}) {
+        const std::vector<QRgb> pixels = inner_pixels(view_, image, [&](const Pick& pick) {
+          const Point p = pick.point - mesh->box_min();
+          if (pick.face == no_id || std::abs(p[axis] - end) > 1e-6) return false;
+          const double margin = 0.3;
+          const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+          return p[u] > margin && p[u] < 10.0 - margin && p[v] > margin && p[v] < 10.0 - margin;
+        });
+        if (pixels.size() < 50) continue;
+        sides.push_back(pixels.front());
+        if (divisions == 1) {
+          EXPECT_LE(spread(pixels), 4) << axis << ' ' << end;  // under 2 %
+        }
+      }
+    ASSERT_EQ(sides.size(), 3u);
+    EXPECT_GT(difference(sides[0], sides[1]), 8);
+    EXPECT_GT(difference(sides[1], sides[2]), 8);
+  }
+}
+
+TEST_F(MeshViewTest, FlatShadingShowsEachFaceByItself) {
+  const MeshPtr mesh = mesh_of(testing::icosphere(10.0, 2));
+  view_.set_mesh(mesh, true);
+  const FaceId face = view_.pick(middle())->face;
+  const auto on_face = [&](const Pick& pick) { return pick.face == face; };
+  EXPECT_GT(spread(inner_pixels(view_, grab(), on_face)), 2) << "a sphere is smooth";
+  view_.set_flat_shading(true);
+  EXPECT_LE(spread(inner_pixels(view_, grab(), on_face)), 1);
+  view_.set_flat_shading(false);
+  EXPECT_GT(spread(inner_pixels(view_, grab(), on_face)), 2);
+}
+
+TEST_F(MeshViewTest, AFittedPartStaysClearOfABarOrLegendThatComesLater) {
+  const auto covered = [&](const QRect& corner) {
+    int hits = 0;
+    for (int y = corner.top(); y < corner.bottom(); y += 4)
+      for (int x = corner.left(); x < corner.right(); x += 4)
+        hits += view_.pick({x, y}).has_value();
+    return hits;
+  };
+  // A square reaches under the legend of lines, a wide part under the scalar bar.
+  const MeshPtr square = plane(10.0, 1.0);
+  view_.set_mesh(square, false);
+  view_.look_from(MeshView::StandardView::top);
+  const QRect left(80, 30, 30, 12), right(view_.width() - 70, 140, 50, 100);
+  ASSERT_GT(covered(left), 5);
+  ViewLine line;
+  line.id = 1;
+  line.vertices = row(*square, square->box_min().y() + 5.0);
+  view_.set_lines({line});
+  EXPECT_EQ(covered(left), 0) << "the legend is there now";
+  EXPECT_TRUE(view_.is_fitted());
+
+  testing::Triangles stretched = testing::noisy_plane(10.0, 1.0, 0.0, 0.0, 1);
+  for (Point& p : stretched.points) p.x() *= 3.0;
+  const MeshPtr wide = mesh_of(stretched);
+  view_.set_mesh(wide, false);
+  view_.look_from(MeshView::StandardView::top);
+  ASSERT_GT(covered(right), 20);
+  const ViewField field = field_of(*wide, [](const Point& p) { return p.x(); });
   view_.set_field(field);
-  EXPECT_LE(difference(middle_colour(), qRgb(120, 130, 140)), 3);
+  EXPECT_EQ(covered(right), 0) << "the scalar bar is there now";
+  EXPECT_TRUE(view_.is_fitted());
+  // Not once the camera is the user's.
+  view_.set_field(std::nullopt);
+  view_.fit();
+  view_.zoom_by(1.1);
+  const auto before = view_.pick(middle());
+  view_.set_field(field);
+  EXPECT_EQ(view_.pick(middle())->point, before->point);
 }
 
 TEST_F(MeshViewTest, ClassesHaveTheirColours) {

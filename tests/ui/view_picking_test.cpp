@@ -92,16 +92,15 @@ TEST_F(MeshViewTest, LinesBehindThePartAreNeitherPickedNorSeen) {
   ViewLine line;
   line.id = 3;
   line.vertices = vertices;
+  view_.set_legend_visible(false);  // the part would make room for it
   const QImage before = view_.picture(bare({500, 400}));
   view_.set_lines({line});
   PictureOptions options = bare({500, 400});
   const QImage behind = view_.picture(options);
-  // The legend of the lines comes in, nothing else.
-  EXPECT_EQ(unlike(before.copy(180, 0, 320, 400), behind.copy(180, 0, 320, 400), 0), 0.0);
+  EXPECT_EQ(unlike(before, behind, 0), 0.0);
   const auto pick = view_.pick(middle());
   ASSERT_TRUE(pick);
   EXPECT_EQ(pick->line, 0u);
-  view_.set_legend_visible(false);  // so that the part is in the middle
   view_.look_from(MeshView::StandardView::top);
   EXPECT_EQ(view_.pick(middle())->line, 3u);
   EXPECT_GT(share_of(view_.picture(options), qRgb(222, 66, 12), 30), 0.001);
@@ -261,6 +260,57 @@ TEST(RayTreeTest, RaysThroughVerticesAndEdgesHit) {
     EXPECT_TRUE(tree.first(3.0 * middle, -middle, 10.0));
   }
   EXPECT_FALSE(tree.first(Point::Zero(), Point::UnitX(), 10.0)->front);
+}
+
+/// Two meshes as one.
+MeshPtr both(testing::Triangles a, const testing::Triangles& b) {
+  const auto first = static_cast<VertexId>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (const Triangle& t : b.triangles)
+    a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return mesh_of(a);
+}
+
+TEST_F(MeshViewTest, APlaceUnderARoofIsLookedAtFromTheFreeSide) {
+  testing::Triangles roof = testing::noisy_plane(10.0, 1.0, 0.0, 0.0, 1);
+  for (Point& p : roof.points) p.z() += 3.0;
+  const MeshPtr mesh = both(testing::noisy_plane(10.0, 1.0, 0.0, 0.0, 1), roof);
+  view_.set_mesh(mesh, false);
+  view_.look_from(MeshView::StandardView::top);
+  const VertexId below =
+      nearest_vertex(*mesh, Point(centre(*mesh).x(), centre(*mesh).y(), mesh->box_min().z()));
+  ASSERT_FALSE(view_.sees({below}));
+  view_.show_place({below});
+  EXPECT_TRUE(view_.sees({below}));
+  EXPECT_FALSE(view_.section()) << "it can be seen as it is";
+  EXPECT_GT(view_.towards_viewer().z(), -1e-9) << "not from under the floor";
+  // What is seen well is not turned.
+  view_.look_from(MeshView::StandardView::top);
+  const VertexId above =
+      nearest_vertex(*mesh, Point(centre(*mesh).x(), centre(*mesh).y(), mesh->box_max().z()));
+  view_.show_place({above});
+  EXPECT_LT((view_.towards_viewer() - Point::UnitZ()).norm(), 1e-9);
+  EXPECT_TRUE(view_.sees({above}));
+}
+
+TEST_F(MeshViewTest, WhatHidesAPlaceInsideIsCutAwayUntilThePartIsTurned) {
+  const testing::Triangles shell = testing::icosphere(10.0, 3), core = testing::icosphere(3.0, 3);
+  const MeshPtr mesh = both(shell, core);
+  view_.set_mesh(mesh, true);
+  const VertexId inside = nearest_vertex(*mesh, Point(0.0, 3.0, 0.0));
+  ASSERT_FALSE(view_.sees({inside}));
+  view_.show_place({inside});
+  EXPECT_TRUE(view_.section());
+  EXPECT_TRUE(view_.sees({inside}));
+  QTest::mousePress(&view_, Qt::LeftButton, {}, middle());
+  for (int k = 1; k <= 6; ++k) {
+    const QPoint at = middle() + QPoint(6 * k, 0);
+    QMouseEvent move(QEvent::MouseMove, at, view_.mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                     {});
+    QApplication::sendEvent(&view_, &move);
+  }
+  QTest::mouseRelease(&view_, Qt::LeftButton, {}, middle() + QPoint(36, 0));
+  EXPECT_FALSE(view_.section());
 }
 
 }  // namespace

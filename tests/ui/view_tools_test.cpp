@@ -15,7 +15,8 @@ class ViewToolsTest : public MeshViewTest {
     mesh_ = plane(10.0, step);
     view_.set_mesh(mesh_, false);
     view_.look_from(MeshView::StandardView::top);
-    view_.set_scalar_bar_visible(false);
+    view_.set_scalar_bar_visible(false);  // the part stays where it is, whatever is shown on it
+    view_.set_legend_visible(false);
     view_.pick(middle());  // from here on the search tree is there
   }
   /// Where a point of the plane is on the widget.
@@ -515,6 +516,7 @@ TEST_F(ViewToolsTest, FieldsOnFacesAreFlatAndMarkedAtTheirPoint) {
   ASSERT_EQ(mesh_->face_count(), 2u);
   view_.set_mesh(mesh_, false);
   view_.look_from(MeshView::StandardView::top);
+  view_.set_scalar_bar_visible(false);
   ViewField field;
   field.element = Element::face;
   field.scale.map = ColourMap::viridis;

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QClipboard>
+#include <QDockWidget>
 #include <QLabel>
 #include <QTableView>
 
@@ -10,6 +11,7 @@
 #include "ui/panels/element_table.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/steps_panel.h"
+#include "ui/window/tab_order.h"
 
 namespace arris::ui {
 namespace {
@@ -95,6 +97,7 @@ TEST_F(WindowViewTest, PartitionsHideIsolateAndComeBack) {
       find([&](const Pick& p) { return p.line == 0 && document().partitions.label(p.face) != 0; });
   ASSERT_TRUE(at);
   const std::uint32_t id = document().partitions.label(view().pick(*at)->face);
+  const Point there = view().pick(*at)->point;
   const auto id_there = [&] {
     const auto pick = view().pick(*at);
     return pick && pick->face != no_id ? document().partitions.label(pick->face) : 0;
@@ -120,7 +123,9 @@ TEST_F(WindowViewTest, PartitionsHideIsolateAndComeBack) {
   window->session().travel(1);
   ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && !document().find_partitions; }, patience));
   EXPECT_FALSE(window->elements().hides_any());
-  EXPECT_TRUE(view().pick(*at));
+  // The fitted part may have made room for the scalar bar, which is there again.
+  EXPECT_TRUE(
+      find([&](const Pick& p) { return p.face != no_id && (p.point - there).norm() < 2.0; }));
 }
 
 TEST_F(WindowViewTest, WhatIsHiddenIsHiddenOnTheScanToo) {
@@ -288,6 +293,104 @@ TEST_F(WindowViewTest, StepCardsTellWhatTheyDid) {
   }
   EXPECT_EQ(reduced, 1);
   EXPECT_EQ(swapped, 2);
+}
+
+TEST_F(MainWindowTest, ColoursOfAFieldAreUnlitAndFlatShadingCanBeChosenInTheMenu) {
+  open_sample();
+  const auto chosen = [&](const QString& text) -> QAction* {
+    for (QAction* a : window->findChildren<QAction*>())
+      if (a->text().remove('&') == text) return a;
+    return nullptr;
+  };
+  QAction* light = chosen("Light on field colours");
+  QAction* flat = chosen("Flat shading");
+  ASSERT_TRUE(light && flat);
+  EXPECT_FALSE(light->isChecked());
+  EXPECT_FALSE(flat->isChecked());
+  const QImage plain = window->view().grabFramebuffer();
+  light->trigger();
+  const QImage lit = window->view().grabFramebuffer();
+  EXPECT_NE(lit, plain);
+  light->trigger();
+  EXPECT_EQ(window->view().grabFramebuffer(), plain);
+  flat->trigger();
+  EXPECT_EQ(window->view().grabFramebuffer(), plain) << "bare colours know no shading";
+  light->trigger();
+  EXPECT_NE(window->view().grabFramebuffer(), lit);
+}
+
+TEST_F(MainWindowTest, TheFittedPartIsClearOfBarAndLegendThroughoutAFirstRun) {
+  window->resize(1024, 700);
+  open_sample();
+  const auto clear = [&](bool bar, bool legend) {
+    MeshView& view = window->view();
+    int hits = 0;
+    for (int y = 20; y < 120; y += 5)
+      for (int x = 20; x < 110; x += 5) {
+        if (legend && y < 45) hits += view.pick({x, y}).has_value();
+        if (bar) hits += view.pick({view.width() - x, y}).has_value();
+      }
+    return hits == 0;
+  };
+  EXPECT_TRUE(window->view().is_fitted());
+  EXPECT_TRUE(clear(true, false));
+  run_both();
+  QTest::qWait(100);
+  EXPECT_TRUE(window->view().is_fitted());
+  EXPECT_TRUE(clear(false, true));
+  window->set_field(Field::kabs);
+  QTest::qWait(100);
+  EXPECT_TRUE(clear(true, true)) << "a field was switched on";
+  window->set_field(Field::shape);
+  QTest::qWait(100);
+  EXPECT_TRUE(clear(true, true)) << "its legend is wider";
+}
+
+TEST_F(MainWindowTest, TabGoesThroughWhatIsOnTheScreenInItsOrder) {
+  open_sample();
+  run_both();
+  window->view().setFocus();
+  auto* ring = window->findChild<FocusRing*>();
+  ASSERT_TRUE(ring);
+  EXPECT_EQ(ring->widget(), nullptr) << "nobody has pressed Tab yet";
+  std::vector<QWidget*> seen;
+  const auto dock_of = [](QWidget* widget) -> QDockWidget* {
+    for (QWidget* w = widget; w; w = w->parentWidget())
+      if (auto* dock = qobject_cast<QDockWidget*>(w)) return dock;
+    return nullptr;
+  };
+  for (int k = 0; k < 200; ++k) {
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+    QWidget* now = QApplication::focusWidget();
+    ASSERT_TRUE(now);
+    ASSERT_FALSE(now->visibleRegion().isEmpty()) << now->metaObject()->className();
+    ASSERT_EQ(ring->widget(), now);
+    ASSERT_TRUE(ring->isVisible());
+    if (const QDockWidget* dock = dock_of(now)) {
+      ASSERT_FALSE(dock->visibleRegion().isEmpty());
+    }
+    if (!seen.empty() && now == seen.front()) break;
+    seen.push_back(now);
+  }
+  ASSERT_LT(seen.size(), 199u) << "it comes round";
+  ASSERT_GT(seen.size(), 10u);
+  EXPECT_NE(std::ranges::find(seen, static_cast<QWidget*>(&window->view())), seen.end());
+  // From left to right, panel by panel: within the round each panel is one stretch.
+  std::vector<QDockWidget*> docks;
+  for (QWidget* widget : seen)
+    if (QDockWidget* dock = dock_of(widget); dock && (docks.empty() || docks.back() != dock))
+      docks.push_back(dock);
+  std::vector<QDockWidget*> once = docks;
+  std::ranges::sort(once);
+  const auto twice = std::ranges::adjacent_find(once);
+  EXPECT_TRUE(twice == once.end() || docks.front() == docks.back());
+  // Backwards it is the same way.
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Backtab, Qt::ShiftModifier);
+  EXPECT_EQ(QApplication::focusWidget(), seen.back());
+  // A click takes the frame away.
+  QTest::mouseClick(&window->view(), Qt::LeftButton, {}, QPoint(3, 3));
+  window->view().setFocus();
+  EXPECT_TRUE(ring->widget() == nullptr || ring->widget() == &window->view());
 }
 
 }  // namespace

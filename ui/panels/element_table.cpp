@@ -382,6 +382,10 @@ ElementTable::ElementTable(const QString& what, const QStringList& headers,
           [this] { p_->user_selected(); });
   connect(p_->view, &QTableView::doubleClicked, this,
           [this](const QModelIndex& index) { emit activated(p_->id_at(index.row())); });
+  p_->view->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(p_->view, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    emit context_menu_wanted(p_->view->viewport()->mapToGlobal(at));
+  });
   p_->show_count();
 }
 

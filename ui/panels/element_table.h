@@ -35,7 +35,8 @@ class ElementTable : public QWidget {
 
  signals:
   void selection_changed(const std::unordered_set<std::uint32_t>& ids);  ///< By the user only.
-  void activated(std::uint32_t id);  ///< Double click or Enter: zoom to it.
+  void activated(std::uint32_t id);                ///< Double click or Enter: zoom to it.
+  void context_menu_wanted(const QPoint& global);  ///< On what is selected.
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

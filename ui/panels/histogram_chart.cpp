@@ -46,6 +46,10 @@ void HistogramChart::take(const Histogram& given) {
 
 QString HistogramChart::value_text(int i) const { return number_text(handles[i].value); }
 
+QString HistogramChart::reading_text(int i) const {
+  return handles[i].reading ? handles[i].reading(handles[i].value) : QString();
+}
+
 bool HistogramChart::with_title() const { return widget->height() >= 120; }
 
 QString HistogramChart::tick_text(double count) { return count_text(std::llround(count)); }
@@ -60,8 +64,8 @@ int HistogramChart::label_width(int i, bool with_reading) const {
   const QFontMetrics plain(widget->font());
   int width = QFontMetrics(name_font()).horizontalAdvance(handles[i].name) +
               plain.horizontalAdvance(QStringLiteral("  ") + value_text(i)) + 18;
-  if (with_reading && !handles[i].reading.isEmpty()) {
-    width += plain.horizontalAdvance(QStringLiteral("   ") + handles[i].reading);
+  if (const QString reading = reading_text(i); with_reading && !reading.isEmpty()) {
+    width += plain.horizontalAdvance(QStringLiteral("   ") + reading);
   }
   return width;
 }
@@ -427,8 +431,8 @@ void HistogramChart::paint_label(QPainter& painter, int i, const Layout& at) con
   };
   write(name_font(), ink, handles[i].name);
   write(widget->font(), ink, QStringLiteral("  ") + value_text(i));
-  if (at.with_reading[i] && !handles[i].reading.isEmpty()) {
-    write(widget->font(), mix(ink, paper, 0.32), QStringLiteral("   ") + handles[i].reading);
+  if (const QString reading = reading_text(i); at.with_reading[i] && !reading.isEmpty()) {
+    write(widget->font(), mix(ink, paper, 0.32), QStringLiteral("   ") + reading);
   }
   painter.setFont(widget->font());
 }

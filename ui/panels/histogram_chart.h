@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,7 +36,8 @@ struct ThresholdHandle {
   QString tooltip;  ///< What it does.
   double value = 0.0;
   double least = 0.0, most = 1.0;  ///< Range it may be dragged in.
-  QString reading;  ///< Second reading beside the number, e.g. "r = 12.3 mm"; may be empty.
+  /// Second reading beside the number, e.g. "r = 12.3 mm", of whatever value it has; may be empty.
+  std::function<QString(double value)> reading;
 };
 
 /// A second curve over the same axis, on a scale of its own at the right: what each threshold would
@@ -78,6 +80,8 @@ class HistogramChart {
   /// A distribution that is none (too few bins, not increasing, not finite) is shown as none.
   void take(const Histogram& given);
   QString value_text(int i) const;
+  /// The second reading of its value now; empty: it has none.
+  QString reading_text(int i) const;
   Layout layout() const;
   int line_x(int i, const QRect& plot) const { return line_x(handles[i].value, plot); }
   int line_x(double value, const QRect& plot) const;

@@ -192,7 +192,7 @@ class HistogramPanel::Private : public HistogramChart {
     if (!valid(focused)) return;
     q->setAccessibleDescription(
         QStringLiteral("%1 %2 %3")
-            .arg(handles[focused].name, value_text(focused), handles[focused].reading));
+            .arg(handles[focused].name, value_text(focused), reading_text(focused)));
   }
 };
 
@@ -287,8 +287,8 @@ bool HistogramPanel::event(QEvent* event) {
     if (handle >= 0) {
       const ThresholdHandle& h = p_->handles[handle];
       text = tr("<b>%1</b> %2 %3<br>%4<br><i>Drag, or double-click to type. Shift: finer.</i>")
-                 .arg(h.name.toHtmlEscaped(), number_text(h.value), h.reading.toHtmlEscaped(),
-                      h.tooltip.toHtmlEscaped());
+                 .arg(h.name.toHtmlEscaped(), number_text(h.value),
+                      p_->reading_text(handle).toHtmlEscaped(), h.tooltip.toHtmlEscaped());
     } else if (bin && over) {
       text = tr("%1\n%2 of the area")
                  .arg(p_->range_text(*bin), percent_text(p_->histogram.weights[*bin]));

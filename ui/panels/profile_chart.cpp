@@ -149,7 +149,7 @@ void ProfileChart::paintEvent(QPaintEvent*) {
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  write(0, jump_colour(palette()), tr("jump %1°").arg(number_text(std::abs(profile_->jump()), 3)));
+  write(0, jump_colour(palette()), tr("here %1°").arg(number_text(std::abs(profile_->jump()), 3)));
 }
 
 }  // namespace arris::ui

@@ -44,7 +44,15 @@ WorklistPanel::WorklistPanel(QWidget* parent) : QWidget(parent) {
   accept_ =
       button(tr("Accept"), tr("Draw the line that is shown dashed (A, or Enter in the list)"));
   dismiss_ = button(tr("Dismiss"), tr("Leave it as it is and take it off the list, as long as this "
-                                      "window is open (Delete in the list)"));
+                                      "window is open (Shift+A, or Delete in the list)"));
+  dismiss_under_ = button(tr("Dismiss all under"),
+                          tr("Take everything off the list that changes less than this: lines and "
+                             "boundaries shorter, areas of a smaller side"));
+  under_ = new NumberBox(this);
+  under_->setDecimals(3);
+  under_->setRange(0.0, 1e6);
+  under_->setSuffix(tr(" mm"));
+  under_->setAccessibleName(tr("Dismiss all under"));
   auto* steps = new QHBoxLayout;
   steps->setSpacing(4);
   steps->addWidget(previous_);
@@ -53,6 +61,10 @@ WorklistPanel::WorklistPanel(QWidget* parent) : QWidget(parent) {
   answers->setSpacing(4);
   answers->addWidget(accept_);
   answers->addWidget(dismiss_);
+  auto* small = new QHBoxLayout;
+  small->setSpacing(4);
+  small->addWidget(dismiss_under_);
+  small->addWidget(under_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
   column->setSpacing(6);
@@ -61,6 +73,7 @@ WorklistPanel::WorklistPanel(QWidget* parent) : QWidget(parent) {
   column->addWidget(hint_);
   column->addLayout(steps);
   column->addLayout(answers);
+  column->addLayout(small);
   connect(tree_, &QTreeWidget::currentItemChanged, this, [this] { take_current(); });
   // A click on what is current already shows it again.
   connect(tree_, &QTreeWidget::itemClicked, this, [this] { take_current(); });
@@ -68,6 +81,8 @@ WorklistPanel::WorklistPanel(QWidget* parent) : QWidget(parent) {
   connect(previous_, &QPushButton::clicked, this, &WorklistPanel::previous_wanted);
   connect(accept_, &QPushButton::clicked, this, &WorklistPanel::accept_wanted);
   connect(dismiss_, &QPushButton::clicked, this, &WorklistPanel::dismiss_wanted);
+  connect(dismiss_under_, &QPushButton::clicked, this,
+          [this] { emit dismiss_under_wanted(under_->value()); });
   set_enabled_buttons(false, false, false);
 }
 
@@ -173,9 +188,15 @@ void WorklistPanel::set_current(int row, int choice) {
   setting_ = false;
 }
 
+void WorklistPanel::set_small_extent(double extent) {
+  if (!under_->hasFocus()) under_->setValue(extent);
+}
+
 void WorklistPanel::set_enabled_buttons(bool step, bool accept, bool dismiss) {
   previous_->setEnabled(step);
   next_->setEnabled(step);
+  dismiss_under_->setEnabled(step);
+  under_->setEnabled(step);
   accept_->setEnabled(accept);
   dismiss_->setEnabled(dismiss);
 }
@@ -196,14 +217,16 @@ bool WorklistPanel::eventFilter(QObject* watched, QEvent* event) {
   auto* key_event = static_cast<QKeyEvent*>(event);
   if (key_event->modifiers() & ~Qt::KeypadModifier) return QWidget::eventFilter(watched, event);
   const int key = key_event->key();
-  const bool digit = key >= Qt::Key_1 && key <= Qt::Key_9;
+  // Where there is nothing to choose digits are those of the window: the standard views.
+  const qsizetype choices = row_ >= 0 ? choices_[static_cast<std::size_t>(row_)].size() : 0;
+  const bool digit = choices > 1 && key >= Qt::Key_1 && key - Qt::Key_1 < choices;
   const bool enter = key == Qt::Key_Return || key == Qt::Key_Enter;
   if (!digit && !enter && key != Qt::Key_Delete) return QWidget::eventFilter(watched, event);
   event->accept();  // not the window's shortcut for this key
   if (!press) return true;
   if (enter) emit accept_wanted();
   if (key == Qt::Key_Delete) emit dismiss_wanted();
-  if (digit && row_ >= 0 && key - Qt::Key_1 < choices_[static_cast<std::size_t>(row_)].size()) {
+  if (digit) {
     set_current(row_, key - Qt::Key_1);
     emit current_changed(row_, choice_);
   }

@@ -12,6 +12,7 @@ class QTreeWidgetItem;
 namespace arris::ui {
 
 class MutedLabel;
+class NumberBox;
 class WrappedTree;
 
 /// One thing that is left to do.
@@ -40,6 +41,8 @@ class WorklistPanel : public QWidget {
   void set_current(int row, int choice = 0);
   int current_row() const { return row_; }
   int current_choice() const { return choice_; }
+  /// Proposed for dismissing all that is smaller; mm.
+  void set_small_extent(double extent);
   /// Whether there is anything to step through, and whether the current row can be accepted.
   void set_enabled_buttons(bool step, bool accept, bool dismiss);
 
@@ -49,6 +52,7 @@ class WorklistPanel : public QWidget {
   void previous_wanted();
   void accept_wanted();
   void dismiss_wanted();
+  void dismiss_under_wanted(double extent);  ///< mm
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -64,6 +68,8 @@ class WorklistPanel : public QWidget {
   QPushButton* next_;
   QPushButton* accept_;
   QPushButton* dismiss_;
+  QPushButton* dismiss_under_;
+  NumberBox* under_;
   std::vector<QTreeWidgetItem*> items_;  // of each row
   std::vector<QStringList> choices_;
   int row_ = -1;

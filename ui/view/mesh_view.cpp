@@ -21,7 +21,6 @@ constexpr int rest_interval = 180;     // ms without movement until the full mes
 constexpr double slow_surface = 80.0;  // ms; with lines and the rest about 100 for a frame
 constexpr std::size_t stand_in_faces = 60'000;
 constexpr std::size_t most_smooth_faces = 150'000;  // where the processor draws: three times slower
-constexpr double fit_share = 0.86;                  // of the view that the part fills
 
 /// A stand-in where a mesh is large enough to need one.
 Later<CoarseMesh> coarse_later(QThreadPool& workers, const MeshPtr& mesh) {
@@ -131,52 +130,6 @@ ToolOverlay MeshView::Impl::tools(const ViewCamera& seen, QSizeF size) const {
   }
   if (drag == Drag::band && dragged) result.band = QRectF(pressed_at, last_at).normalized();
   return result;
-}
-
-void MeshView::Impl::frame_clear(const std::vector<Point>& points, QSizeF size) {
-  if (points.empty()) return;
-  const auto [bar, legend] = overlay_panels(size, overlay(camera, camera.units_per_pixel(size)));
-  const auto covered = [&](const ViewCamera& seen) {
-    constexpr double room = 4.0;  // pixels about a panel
-    return std::ranges::any_of(points, [&](const Point& point) {
-      const Eigen::Vector3d place = seen.project(point, size);
-      const QPointF at(place.x(), place.y());
-      return std::ranges::any_of(std::array{bar, legend}, [&](const QRectF& panel) {
-        return !panel.isEmpty() && panel.adjusted(-room, -room, room, room).contains(at);
-      });
-    });
-  };
-  // The whole view, or what is left of it beside or below the panels: where the part is largest
-  // and nothing of it is under a panel.
-  const double right = bar.isEmpty() ? size.width() : bar.left();
-  std::vector<QRectF> areas{QRectF(QPointF(0.0, 0.0), size),
-                            QRectF(0.0, 0.0, right, size.height())};
-  if (!legend.isEmpty()) {
-    areas.emplace_back(0.0, legend.bottom(), size.width(), size.height() - legend.bottom());
-    areas.emplace_back(0.0, legend.bottom(), right, size.height() - legend.bottom());
-    areas.emplace_back(legend.right(), 0.0, right - legend.right(), size.height());
-  }
-  // Two corners of the box about all points, upright on the screen, frame as all of them do.
-  Point low = camera.axes().transpose() * points.front(), high = low;
-  for (const Point& point : points) {
-    const Point local = camera.axes().transpose() * point;
-    low = low.cwiseMin(local);
-    high = high.cwiseMax(local);
-  }
-  const std::vector<Point> ends{camera.axes() * low, camera.axes() * high};
-  ViewCamera best = camera;
-  best.frame(ends, size, fit_share, least_height());
-  bool found = false;
-  for (const QRectF& area : areas) {
-    constexpr double least = 0.4;  // of the view; in less room the part may be partly covered
-    if (area.width() < least * size.width() || area.height() < least * size.height()) continue;
-    ViewCamera candidate = camera;
-    candidate.frame(ends, size, fit_share, least_height(), area);
-    if ((found && candidate.height() >= best.height()) || covered(candidate)) continue;
-    best = candidate;
-    found = true;
-  }
-  camera = best;
 }
 
 bool MeshView::Impl::field_shown() const {
@@ -320,6 +273,7 @@ void MeshView::set_mesh(MeshPtr mesh, bool fit) {
   impl_->reference_coarse = {};
   impl_->coarse_given = false;
   impl_->scene.set_mesh(impl_->mesh);
+  uncover();
   clear_measurement();
   if (impl_->mesh) {
     impl_->tree =
@@ -372,6 +326,7 @@ void MeshView::set_hidden_reference_faces(std::vector<bool> hidden) {
 void MeshView::set_section(const std::optional<Section>& section) {
   if (section == impl_->section) return;
   impl_->section = section;
+  impl_->cut_before_place.reset();
   impl_->scene.set_section(section);
   moved();  // a slow surface follows as its stand-in
 }
@@ -400,11 +355,13 @@ void MeshView::set_field(std::optional<ViewField> field) {
   impl_->field = std::move(field);
   impl_->field_has_undefined = impl_->field && has_undefined(*impl_->field);
   impl_->scene.set_field(impl_->field);
+  keep_clear();
   update();
 }
 
 void MeshView::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours) {
   impl_->scene.set_face_labels(std::move(labels), std::move(colours));
+  keep_clear();
   update();
 }
 
@@ -412,6 +369,7 @@ void MeshView::set_lines(std::vector<ViewLine> lines) {
   std::erase_if(lines, [&](const ViewLine& line) { return !impl_->has(line.vertices); });
   impl_->lines = std::move(lines);
   impl_->show_lines();
+  keep_clear();
   update();
 }
 
@@ -430,6 +388,7 @@ void MeshView::set_selected_labels(const std::unordered_set<std::uint32_t>& labe
 void MeshView::set_lines_visible(bool visible) {
   impl_->lines_visible = visible;
   impl_->scene.set_lines_visible(visible);
+  keep_clear();
   update();
 }
 
@@ -438,78 +397,31 @@ void MeshView::set_edges_visible(bool visible) {
   update();
 }
 
+void MeshView::set_fields_lit(bool lit) {
+  impl_->scene.set_fields_lit(lit);
+  update();
+}
+
+void MeshView::set_flat_shading(bool flat) {
+  impl_->scene.set_flat(flat);
+  update();
+}
+
 void MeshView::set_scalar_bar_visible(bool visible) {
   impl_->scalar_bar_visible = visible;
+  keep_clear();
   update();
 }
 
 void MeshView::set_legend_visible(bool visible) {
   impl_->legend_visible = visible;
+  keep_clear();
   update();
 }
 
 void MeshView::set_dark(bool dark) {
   impl_->dark = dark;
   impl_->show_ground();
-  update();
-}
-
-void MeshView::fit() {
-  if (!impl_->mesh) return;
-  std::vector<Point> points;
-  points.reserve(impl_->mesh->vertex_count());
-  for (VertexId v = 0; v < impl_->mesh->vertex_count(); ++v) {
-    if (!impl_->mesh->is_isolated(v)) points.push_back(impl_->mesh->point(v));
-  }
-  impl_->frame_clear(points, logical_size(*this));
-  impl_->fitted = impl_->camera;
-  update();
-}
-
-bool MeshView::is_fitted() const { return impl_->mesh && impl_->camera == impl_->fitted; }
-
-Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); }
-
-void MeshView::look_against(const Point& towards_viewer) {
-  const Point direction = towards_viewer.normalized();
-  constexpr double steep = 0.95;  // nearly from above or below: y is up then
-  impl_->camera.look(
-      direction, std::abs(direction.z()) > steep ? Point(Point::UnitY()) : Point(Point::UnitZ()));
-  fit();
-}
-
-void MeshView::look_from(StandardView view) {
-  const Point up = Point::UnitZ();
-  switch (view) {
-    case StandardView::front:
-      impl_->camera.look(-Point::UnitY(), up);
-      break;
-    case StandardView::back:
-      impl_->camera.look(Point::UnitY(), up);
-      break;
-    case StandardView::left:
-      impl_->camera.look(-Point::UnitX(), up);
-      break;
-    case StandardView::right:
-      impl_->camera.look(Point::UnitX(), up);
-      break;
-    case StandardView::top:
-      impl_->camera.look(Point::UnitZ(), Point::UnitY());
-      break;
-    case StandardView::bottom:
-      impl_->camera.look(-Point::UnitZ(), Point::UnitY());
-      break;
-    case StandardView::isometric:
-      impl_->camera.look(Point(1.0, -1.0, 1.0), up);
-      break;
-  }
-  fit();
-}
-
-void MeshView::zoom_by(double factor) {
-  const QSizeF size = logical_size(*this);
-  impl_->camera.zoom(factor, QPointF(size.width() / 2.0, size.height() / 2.0), size,
-                     impl_->least_height(), impl_->most_height());
   update();
 }
 
@@ -523,6 +435,8 @@ void MeshView::look_like(const MeshView& other) {
   set_lines_visible(look.lines_visible);
   set_edges_visible(look.edges_visible);
   set_dark(look.dark);
+  set_fields_lit(look.fields_lit);
+  set_flat_shading(look.flat);
   impl_->told = impl_->look();
   if (follows && other.impl_->moving) moved();
 }
@@ -531,20 +445,6 @@ void MeshView::tell_look() {
   if (impl_->look() == impl_->told) return;
   impl_->told = impl_->look();
   emit look_changed();
-}
-
-void MeshView::zoom_to(const std::vector<VertexId>& vertices) {
-  if (!impl_->mesh) return;
-  std::vector<Point> points;
-  for (const VertexId v : vertices) {
-    if (v < impl_->mesh->vertex_count()) points.push_back(impl_->mesh->point(v));
-  }
-  constexpr double share = 0.6;
-  constexpr double edges_seen = 12.0;  // so that a single vertex is shown with what is about it
-  impl_->camera.frame(
-      points, logical_size(*this), share,
-      std::max(impl_->least_height(), edges_seen * impl_->mesh->mean_edge_length()));
-  update();
 }
 
 QImage MeshView::picture(const PictureOptions& options) {

@@ -158,6 +158,10 @@ class MeshView : public QOpenGLWidget {
 
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);  ///< Mesh edges as a thin net.
+  /// Whether colours of a field on faces or vertices are shaded as the surface is lit. If not, as
+  /// at first, they are exactly those of the scalar bar. Labels and a bare part always are.
+  void set_fields_lit(bool lit);
+  void set_flat_shading(bool flat);  ///< Each face by its own normal, else smooth between creases.
   void set_scalar_bar_visible(bool visible);
   void set_legend_visible(bool visible);  ///< That of the types of lines.
   void set_dark(bool dark);               ///< Ground and text colours.
@@ -172,11 +176,18 @@ class MeshView : public QOpenGLWidget {
   void look_from(StandardView view);  ///< z is up; fits the part.
   Point towards_viewer() const;
   void zoom_by(double factor);  ///< Magnifies about the middle of the view.
-  /// Takes over how another view looks at its part: camera, section, surface, ground, what of lines
-  /// and edges is visible. Not the scalar bar: two views side by side need one.
+  /// Takes over how another view looks at its part: camera, section, surface, ground and light,
+  /// what of lines and edges is visible. Not the scalar bar: two views side by side need one.
   void look_like(const MeshView& other);
-  /// Moves the camera (keeps direction) so that these vertices fill most of the view.
+  /// Moves the camera (keeps direction) so that these vertices fill most of the view, beside the
+  /// scalar bar.
   void zoom_to(const std::vector<VertexId>& vertices);
+  /// The same, turned to a side from which they are seen where they are hidden or face away. Where
+  /// there is none, what lies before them is cut away until the part is turned. In the first
+  /// moments after set_mesh() it waits as pick() does.
+  void show_place(const std::vector<VertexId>& vertices);
+  /// Whether any of these vertices is inside the view and not hidden. Waits as pick() does.
+  bool sees(const std::vector<VertexId>& vertices);
 
   /// The picture as on the screen, drawn again at the wanted size: text and line widths grow with
   /// it, and at least what is seen on the screen is in it. Null image if drawing failed, which it
@@ -241,6 +252,10 @@ class MeshView : public QOpenGLWidget {
   void measure_to(const Pick& pick);
   void show_cursor();
   void tell_look();
+  /// Fits again where scalar bar or legend came to lie over the fitted part.
+  void keep_clear();
+  /// What was cut away before a place is there again.
+  void uncover();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

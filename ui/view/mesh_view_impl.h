@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <future>
 #include <new>
@@ -62,6 +63,8 @@ struct MeshView::Impl {
     bool lines_visible = true;
     bool edges_visible = false;
     bool dark = false;
+    bool fields_lit = false;
+    bool flat = false;
     bool operator==(const Look&) const = default;
   };
 
@@ -76,6 +79,8 @@ struct MeshView::Impl {
   std::vector<bool> hidden;                         // faces; empty: none
   std::vector<bool> hidden_reference;
   std::optional<Section> section;
+  /// The section of before while `section` cuts away what hides a place; see show_place().
+  std::optional<std::optional<Section>> cut_before_place;
   std::optional<ViewField> field;
   bool field_has_undefined = false;
   std::set<LineType> line_types;
@@ -86,7 +91,8 @@ struct MeshView::Impl {
   Look told;  // by the last look_changed()
 
   ViewCamera camera;
-  ViewCamera fitted;  // as fit() left it
+  ViewCamera fitted;             // as fit() left it
+  std::array<QRectF, 2> panels;  // scalar bar and legend that the part was last fitted beside
   Scene scene;
   GlCanvas canvas{scene};
   QMetaObject::Connection context_end;
@@ -132,6 +138,11 @@ struct MeshView::Impl {
   bool field_shown() const;
   /// Frames points so that no scalar bar and no legend lies over them, where there is room.
   void frame_clear(const std::vector<Point>& points, QSizeF size);
+  /// Where scalar bar and legend are on a view of `size`.
+  std::array<QRectF, 2> panels_on(QSizeF size) const;
+  /// Whether one of `panels` lies over one of these points.
+  bool covers(const std::vector<Point>& points, const ViewCamera& seen, QSizeF size) const;
+  void look_upright(const Point& towards_viewer);
   QString hint_shown() const;
   void show_lines();
   void show_marked_paths();
@@ -143,7 +154,14 @@ struct MeshView::Impl {
            std::ranges::all_of(path, [&](VertexId v) { return v < mesh->vertex_count(); });
   }
   Look look() const {
-    return {camera, section, scene.chosen(), lines_visible, scene.edges_visible(), dark};
+    return {camera,
+            section,
+            scene.chosen(),
+            lines_visible,
+            scene.edges_visible(),
+            dark,
+            scene.fields_lit(),
+            scene.flat()};
   }
 
   PickSpace space(const RayTree& with, QSizeF size) const {

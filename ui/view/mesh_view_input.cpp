@@ -218,6 +218,7 @@ void MeshView::mouseMoveEvent(QMouseEvent* event) {
   impl_->last_at = at;
   switch (impl_->drag) {
     case Impl::Drag::orbit:
+      uncover();
       impl_->camera.orbit(impl_->pivot, -by.x() * radians_per_pixel, -by.y() * radians_per_pixel);
       moved();
       break;

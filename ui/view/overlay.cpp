@@ -51,6 +51,26 @@ void paint_text(QPainter& painter, const QFont& font, const QColor& colour, cons
   painter.drawText(rect, static_cast<int>(alignment) | Qt::TextSingleLine | Qt::TextDontClip, text);
 }
 
+/// A sample of what is hatched on the part (scene.cpp).
+void paint_undefined(QPainter& painter, const Look& look, const QRectF& rect,
+                     const QColor& colour) {
+  painter.save();
+  painter.setClipRect(rect);
+  painter.fillRect(rect, colour);
+  const auto lighter = [](int channel) {
+    return static_cast<int>(channel + 0.55 * (255 - channel));
+  };
+  painter.setPen(
+      QPen(QColor(lighter(colour.red()), lighter(colour.green()), lighter(colour.blue())),
+           hatch_period / 2.0 / std::sqrt(2.0), Qt::SolidLine, Qt::FlatCap));
+  for (double x = rect.left() - rect.height(); x < rect.right(); x += hatch_period)
+    painter.drawLine(QPointF(x, rect.top()), QPointF(x + rect.height(), rect.bottom()));
+  painter.restore();
+  painter.setPen(QPen(look.faint, 1.0));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(rect);
+}
+
 QColor to_colour(const std::array<std::uint8_t, 3>& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
 /// The value at a position of the scale.
@@ -182,9 +202,7 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
   }
   if (undefined) {
     const double at = panel.bottom() - padding - line;
-    painter.setPen(QPen(look.faint, 1.0));
-    painter.setBrush(scale.undefined);
-    painter.drawRect(QRectF(x, at + 2, strip, line - 4));
+    paint_undefined(painter, look, QRectF(x, at + 2, strip, line - 4), scale.undefined);
     paint_text(painter, look.font, look.text, {values_x, at, inner, line},
                Qt::AlignLeft | Qt::AlignVCenter, undefined_text);
   }

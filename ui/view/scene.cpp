@@ -22,6 +22,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <Eigen/Geometry>
 
+#include "ui/view/surface_shaders.h"
+
 namespace arris::ui {
 namespace {
 
@@ -33,54 +35,6 @@ const QColor selected_colour(255, 190, 30);
 const QColor highlight_colour(255, 128, 0);
 const QColor ghost_colour(0, 214, 236);
 constexpr float marked_half_width = 6.5F;
-
-/// Normals of the vertices make a scan look smooth, those of the faces keep its sharp lines crisp:
-/// where the two differ much the face's is taken.
-constexpr const char* normal_code = R"(
-  //VTK::Normal::Impl
-  float cutRim = clamp(fwidth(beyondVS), 1e-30, cutMost);  // thin on walls seen edge-on
-  vec3 faceNormal = normalize(cross(dFdx(vertexVC.xyz), dFdy(vertexVC.xyz)));
-  if (faceNormal.z < 0.0) faceNormal = -faceNormal;
-  float agreement = dot(faceNormal, normalVCVSOutput);
-  normalVCVSOutput = normalize(mix(faceNormal, normalVCVSOutput,
-                                   smoothstep(0.80, 0.94, agreement)));
-)";
-
-/// Shades without ever changing a hue, and full colour where the surface faces the viewer: colours
-/// on the part are those of the scalar bar. The back of the part is a dull grey.
-constexpr const char* light_code = R"(
-  if (beyondVS > 0.0) discard;
-  float key = max(dot(normalVCVSOutput, vec3(-0.38, 0.48, 0.79)), 0.0);
-  float fill = max(dot(normalVCVSOutput, vec3(0.62, -0.30, 0.72)), 0.0);
-  float head = max(normalVCVSOutput.z, 0.0);
-  float bare = 0.30 + 0.52 * key + 0.18 * fill + 0.12 * head;
-  float coloured = min(0.32 + 0.30 * key + 0.12 * fill + 0.3566 * head, 1.0);
-  vec3 shaded = diffuseColor * mix(bare, coloured, colourShare);
-  shaded += (1.0 - colourShare) * 0.10 * pow(key, 24.0);
-  if (!gl_FrontFacing) shaded = vec3(0.47, 0.48, 0.52) * (0.35 + 0.65 * head);
-  gl_FragData[0] = vec4(shaded, opacity);
-)";
-
-/// A double rim shows where a section cuts, whatever the colours there. Comes last: VTK lays
-/// textures over what is lit.
-constexpr const char* rim_code = R"(
-  //VTK::TCoord::Impl
-  float fromCut = -beyondVS / cutRim - cutRimWidth;
-  vec3 rimmed = mix(vec3(1.0), gl_FragData[0].rgb,
-                    smoothstep(cutRimWidth, cutRimWidth + 0.8, fromCut));
-  gl_FragData[0].rgb = mix(vec3(0.06, 0.07, 0.10), rimmed, smoothstep(0.0, 0.8, fromCut));
-)";
-
-/// As VTK declares them, but taken within the triangle where only a part of a pixel is covered:
-/// values at the end of a scale must not spill over to the colour beyond it.
-constexpr const char* vertex_place_code = "in vec2 tcoord; centroid out vec2 tcoordVCVSOutput;";
-constexpr const char* fragment_place_code = "centroid in vec2 tcoordVCVSOutput;";
-
-constexpr const char* place_code = R"(
-  //VTK::PositionVC::Impl
-  gl_Position.z -= lift;
-  beyondVS = dot(sectionPlane.xyz, vertexMC.xyz) - sectionPlane.w;
-)";
 
 /// Gives an actor the uniforms `lift` (towards the viewer, in depth) and `sectionPlane`, and the
 /// distance beyond the section to its fragments.
@@ -227,14 +181,25 @@ struct Scene::Shape {
     shader->AddFragmentShaderReplacement("//VTK::TCoord::Dec", true, fragment_place_code, false);
     shader->GetFragmentCustomUniforms()->SetUniformf("cutRimWidth", 1.0F);
     shader->GetFragmentCustomUniforms()->SetUniformf("cutMost", 1.0F);
+    shader->GetFragmentCustomUniforms()->SetUniformf("hatchPeriod", 8.0F);
+    set_smooth(true);
     actor->VisibilityOff();
     renderer->AddActor(actor);
   }
 
-  void paint(const QColor& colour, float colour_share) {
+  /// `light_share`: 0 draws the bare colour, whatever way the surface faces.
+  void paint(const QColor& colour, float colour_share, float light_share, const QColor& undefined) {
     actor->GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
-    actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("colourShare",
-                                                                         colour_share);
+    vtkUniforms* uniforms = actor->GetShaderProperty()->GetFragmentCustomUniforms();
+    uniforms->SetUniformf("colourShare", colour_share);
+    uniforms->SetUniformf("lightShare", light_share);
+    const std::array<float, 3> ink{undefined.redF(), undefined.greenF(), undefined.blueF()};
+    uniforms->SetUniform3f("undefinedColour", ink.data());
+  }
+
+  void set_smooth(bool smooth) {
+    actor->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("smoothShare",
+                                                                         smooth ? 1.0F : 0.0F);
   }
 
   /// Draws those of `triangles` that are shown; `sources`: their faces, empty: the same numbers.
@@ -424,10 +389,21 @@ struct Scene::Body {
     vtkNew<vtkFloatArray> normals;
     normals->SetNumberOfComponents(3);
     normals->SetNumberOfTuples(static_cast<vtkIdType>(count));
+    for (Point& sum : sums) sum = sum.norm() > 0.0 ? Point(sum.normalized()) : Point::UnitZ();
+    // As long as it agrees with the face about it that it fits least, which the shader reads.
+    constexpr double least_agreement = 0.05;  // a direction is left in any case
+    std::vector<double> agreements(count, 1.0);
+    for (const Triangle& t : mesh->triangles()) {
+      const Point& a = mesh->point(t[0]);
+      const Point normal = (mesh->point(t[1]) - a).cross(mesh->point(t[2]) - a);
+      const double length = normal.norm();
+      if (!(length > 0.0)) continue;
+      for (const VertexId v : t)
+        agreements[v] = std::min(agreements[v], sums[v].dot(normal) / length);
+    }
     for (VertexId v = 0; v < count; ++v) {
-      const double length = sums[v].norm();
       const Eigen::Vector3f normal =
-          (length > 0.0 ? Point(sums[v] / length) : Point(Point::UnitZ())).cast<float>();
+          (sums[v] * std::max(agreements[v], least_agreement)).cast<float>();
       normals->SetTypedTuple(v, normal.data());
     }
     vtkNew<vtkPoints> shell;
@@ -666,6 +642,20 @@ void Scene::set_edges_visible(bool visible) {
   refresh();
 }
 
+void Scene::set_fields_lit(bool lit) {
+  if (lit == fields_lit_) return;
+  fields_lit_ = lit;
+  refresh();
+}
+
+void Scene::set_flat(bool flat) {
+  if (flat == flat_) return;
+  flat_ = flat;
+  for (Body* body : {body_.get(), reference_.get()})
+    for (Shape* shape : {&body->fine, &body->rough}) shape->set_smooth(!flat);
+  ++surface_version_;
+}
+
 void Scene::set_ground(const QColor& bottom, const QColor& top) {
   surface_renderer_->SetBackground(bottom.redF(), bottom.greenF(), bottom.blueF());
   surface_renderer_->SetBackground2(top.redF(), top.greenF(), top.blueF());
@@ -735,6 +725,7 @@ void Scene::prepare(const ViewCamera& camera, QSize pixels, double pixel_ratio, 
     for (Shape* shape : {&body->fine, &body->rough}) {
       vtkUniforms* uniforms = shape->actor->GetShaderProperty()->GetFragmentCustomUniforms();
       uniforms->SetUniformf("cutRimWidth", static_cast<float>(1.2 * pixel_ratio));
+      uniforms->SetUniformf("hatchPeriod", static_cast<float>(hatch_period * pixel_ratio));
       uniforms->SetUniformf("cutMost",
                             static_cast<float>(1.5 * frame.units_per_pixel / pixel_ratio));
     }
@@ -761,6 +752,7 @@ void Scene::show_field() {
     shape->mapper->ScalarVisibilityOff();
   }
   const bool drawn = field_ && fits(*field_, mesh);
+  bool lit = true;
   const bool on_edges = drawn && field_->element == Element::edge;
   body_->net.mapper->ScalarVisibilityOff();
   body_->net.actor->GetProperty()->SetOpacity(0.45);
@@ -773,10 +765,12 @@ void Scene::show_field() {
     show_edge_field();
   } else if (drawn && field_->element == Element::face) {
     base = QColor(Qt::white);
+    lit = fields_lit_;
     for (Shape* shape : {&body_->fine, &body_->rough})
       shape->colour_faces([&](FaceId f) { return field_->scale.colour((*field_->values)[f]); });
   } else if (drawn) {
     base = QColor(Qt::white);
+    lit = fields_lit_;
     if (field_->class_names.isEmpty()) {
       show_scale_field();
     } else {
@@ -785,12 +779,15 @@ void Scene::show_field() {
   } else {
     colour_share = 0.0F;
   }
-  for (Shape* shape : {&body_->fine, &body_->rough}) shape->paint(base, colour_share);
+  const QColor undefined = drawn ? field_->scale.undefined : bare_colour;
+  for (Shape* shape : {&body_->fine, &body_->rough})
+    shape->paint(base, colour_share, lit ? 1.0F : 0.0F, undefined);
   if (shown() != ShownSurface::mesh) {
     reference_->upload(origin_, hidden_reference_);
     if (edges_visible_)
       reference_->net.build(*reference_->mesh, reference_->fine.data->GetPoints(), {});
-    for (Shape* shape : {&reference_->fine, &reference_->rough}) shape->paint(bare_colour, 0.0F);
+    for (Shape* shape : {&reference_->fine, &reference_->rough})
+      shape->paint(bare_colour, 0.0F, 1.0F, bare_colour);
   }
 }
 
@@ -799,7 +796,7 @@ void Scene::show_scale_field() {
   const std::vector<double>& values = *field_->values;
   const int steps = scale.bands > 0 ? scale.bands : 1024;
   texture_image_->SetDimensions(steps + 2, 2, 1);
-  texture_image_->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  texture_image_->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   ColourScale plain;  // evenly over the positions, to read the colours of the positions from
   plain.map = scale.map;
   plain.reversed = scale.reversed;
@@ -808,9 +805,12 @@ void Scene::show_scale_field() {
     auto colour = plain.colour((i - 0.5) / steps);
     if (i == 0 && scale.below.isValid()) colour = scale.colour(-HUGE_VAL);
     if (i == steps + 1 && scale.above.isValid()) colour = scale.colour(HUGE_VAL);
-    std::copy(colour.begin(), colour.end(),
-              static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 0, 0)));
-    write(static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 1, 0)), scale.undefined);
+    auto* defined = static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 0, 0));
+    std::copy(colour.begin(), colour.end(), defined);
+    defined[3] = 255;
+    auto* undefined = static_cast<unsigned char*>(texture_image_->GetScalarPointer(i, 1, 0));
+    write(undefined, scale.undefined);
+    undefined[3] = 0;
   }
   texture_image_->Modified();
   vtkNew<vtkFloatArray> places;

@@ -28,6 +28,8 @@ namespace arris::ui {
 const std::vector<Stroke>& line_strokes();
 /// Width of the light rim on each side of a line that sets it off from dark surfaces; pixels.
 inline constexpr float line_rim = 1.1F;
+/// From stripe to stripe across a surface without a value, along x or y; pixels.
+inline constexpr double hatch_period = 8.0;
 
 /// Whether a field has as many values as the mesh has elements for it.
 bool fits(const ViewField& field, const Mesh& mesh);
@@ -69,6 +71,10 @@ class Scene {
   void set_lines_visible(bool visible);
   void set_edges_visible(bool visible);
   bool edges_visible() const { return edges_visible_; }
+  void set_fields_lit(bool lit);  ///< See MeshView.
+  bool fields_lit() const { return fields_lit_; }
+  void set_flat(bool flat);
+  bool flat() const { return flat_; }
   /// Two colours from the bottom to the top; one where they are alike; alpha 0: transparent.
   void set_ground(const QColor& bottom, const QColor& top);
 
@@ -108,6 +114,8 @@ class Scene {
   std::vector<QColor> label_colours_;
   std::unordered_set<std::uint32_t> selected_labels_;
   bool edges_visible_ = false;
+  bool fields_lit_ = false;
+  bool flat_ = false;
   bool stale_ = true;  // colours have to be made again before the next frame
   std::uint64_t surface_version_ = 0;
 

@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "ui/window/places.h"
-
 namespace arris::ui {
 
 namespace {
@@ -126,7 +124,7 @@ void CorrectionsPresenter::show(std::uint32_t id) {
   view_->set_ghost_paths(std::move(ghosts));
   view_->set_picked_points(std::move(rings));
   marked_ = true;
-  show_place(*view_, *document.mesh, place);
+  view_->show_place(place);
 }
 
 void CorrectionsPresenter::clear_marks() {

@@ -3,20 +3,21 @@
 #include <cmath>
 
 #include "core/base/number_text.h"
+#include "core/document/treatments/treatment.h"
 #include "ui/window/shown_elements.h"
 
 namespace arris::ui {
 
 namespace {
 
-double shown(double value, int digits = 4) { return rounded(value, digits); }
+double shown(double value) { return rounded(value, 3); }
+/// Lengths and areas: whole from 100 on.
+double measured(double value) { return std::abs(value) < 99.95 ? shown(value) : std::round(value); }
 
 QString partition_name(std::uint32_t id) { return id == 0 ? QString("–") : QString::number(id); }
 
 QString interval_text(const CurvatureInterval& interval) {
-  const QString high =
-      std::isfinite(interval.max) ? QString::fromStdString(number_text(interval.max, 3)) : "∞";
-  return QString::fromStdString(number_text(interval.min, 3)) + " – " + high;
+  return QString::fromStdString(interval_in_words(interval));
 }
 
 template <class Find>
@@ -80,7 +81,9 @@ ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
       {tr("Number"),
        tr("C0: sharp line. Gn: between two partitions; tangent where their surfaces touch, as at "
           "both rims of a fillet. Undefined: unassigned faces beyond. Border: the scan ends"),
-       tr("Length along the boundary"), tr("Mean exterior angle, positive where convex"),
+       tr("Length along the boundary"),
+       tr("Mean angle across it, positive where convex: of a sharp line as in the table of lines, "
+          "else the exterior angle"),
        tr("Of a tangent line: radius across it of the surface that is bent the more, the fillet"),
        tr("Partition to its left"), tr("Partition to its right")},
       parent);
@@ -104,6 +107,7 @@ ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables ta
     partitions_.clear();
     boundaries_.clear();
     show_selection();
+    bring_into_sight();
     emit selection_changed();
   });
   connect(tables_.partitions, &ElementTable::selection_changed, this, [this](const Ids& ids) {
@@ -111,6 +115,7 @@ ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables ta
     lines_.clear();
     boundaries_.clear();
     show_selection();
+    bring_into_sight();
     emit selection_changed();
   });
   connect(tables_.boundaries, &ElementTable::selection_changed, this, [this](const Ids& ids) {
@@ -118,6 +123,7 @@ ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables ta
     lines_.clear();
     partitions_.clear();
     show_selection();
+    bring_into_sight();
     emit selection_changed();
   });
   for (ElementTable* table : {tables_.lines, tables_.partitions, tables_.boundaries})
@@ -171,7 +177,7 @@ void ElementsPresenter::refresh() {
       const QString type = (line->convex() ? tr("convex") : tr("concave")) +
                            (line->closed ? tr(", closed") : QString());
       rows.push_back({line->id,
-                      {line->id, type, shown(line->length), shown(line->mean_angle, 3),
+                      {line->id, type, measured(line->length), shown(line->mean_angle),
                        origin_text(*line), static_cast<int>(line->vertices.size() - 1)},
                       {}});
     }
@@ -185,19 +191,22 @@ void ElementsPresenter::refresh() {
 
 void ElementsPresenter::fill_boundaries_table() {
   const Boundaries& boundaries = session_->shown().boundaries;
+  const SharpLines& lines = session_->shown().document.lines;
   std::vector<ElementRow> rows;
   for (std::uint32_t k = 0; k < boundaries.size(); ++k) {
     const Boundary& b = *boundaries[k];
     const std::string_view name = name_of(b.type);
     QString type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    // One value for one line, whichever table says it.
+    const Line* line = b.type == BoundaryType::c0 ? lines.find(b.line) : nullptr;
     QVariant radius;
     if (const auto tangent = tangent_.find(k); tangent != tangent_.end()) {
       type += tr(", tangent");
-      radius = shown(tangent->second.radius, 3);
+      radius = shown(tangent->second.radius);
     }
     rows.push_back({k + 1,
-                    {k + 1, type, shown(b.length), shown(b.mean_angle, 3), radius,
-                     partition_name(b.left), partition_name(b.right)},
+                    {k + 1, type, measured(b.length), shown(line ? line->mean_angle : b.mean_angle),
+                     radius, partition_name(b.left), partition_name(b.right)},
                     {}});
   }
   tables_.boundaries->set_rows(std::move(rows));
@@ -218,14 +227,14 @@ void ElementsPresenter::fill_partitions_table() {
       type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
       size = QString::fromStdString(size_text(fit.surface));
       if (fit.surface.type != SurfaceType::free) {
-        mean = shown(fit.mean_deviation, 3);
-        most = shown(fit.max_deviation, 3);
-        within = shown(100.0 * fit.within, 3);
+        mean = shown(fit.mean_deviation);
+        most = shown(fit.max_deviation);
+        within = shown(100.0 * fit.within);
       }
     }
     rows.push_back({p.id,
-                    {p.id, type, size, mean, most, within, sides_[p.id], shown(p.area), p.faces,
-                     shown(p.mean_value, 3), interval_text(p.interval)},
+                    {p.id, type, size, mean, most, within, sides_[p.id], measured(p.area), p.faces,
+                     shown(p.mean_value), interval_text(p.interval)},
                     colours[k]});
   }
   tables_.partitions->set_rows(std::move(rows));
@@ -424,7 +433,7 @@ void ElementsPresenter::select(const Ids& lines, const Ids& partitions) {
   emit selection_changed();
 }
 
-void ElementsPresenter::zoom_to_selection() {
+std::vector<VertexId> ElementsPresenter::place_of_selection() const {
   const Snapshot& snapshot = session_->shown();
   std::vector<VertexId> vertices;
   const auto add = [&](const auto& more) {
@@ -437,7 +446,17 @@ void ElementsPresenter::zoom_to_selection() {
     for (FaceId f = 0; f < snapshot.document.partitions.labels.size(); ++f)
       if (partitions_.contains(snapshot.document.partitions.labels[f]))
         add(snapshot.document.mesh->triangle(f));
-  if (!vertices.empty()) view_->zoom_to(vertices);
+  return vertices;
+}
+
+void ElementsPresenter::zoom_to_selection() {
+  const std::vector<VertexId> place = place_of_selection();
+  if (!place.empty()) view_->show_place(place);
+}
+
+void ElementsPresenter::bring_into_sight() {
+  const std::vector<VertexId> place = place_of_selection();
+  if (!place.empty() && !view_->sees(place)) view_->show_place(place);
 }
 
 }  // namespace arris::ui

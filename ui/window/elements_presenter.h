@@ -82,6 +82,9 @@ class ElementsPresenter : public QObject {
   void fill_boundaries_table();
   void show_lines();
   void fit_surfaces();
+  std::vector<VertexId> place_of_selection() const;
+  /// What was chosen in a table is looked at where nothing of it is seen.
+  void bring_into_sight();
 
   Session* session_;
   MeshView* view_;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/words.h"
 #include "core/guidance/explain.h"
 #include "ui/panels/controls.h"
 #include "ui/window/actions.h"
@@ -14,9 +15,9 @@ namespace {
 
 QString with_unit(double value, const std::string& unit) {
   if (std::isnan(value)) return QStringLiteral("–");
-  const QString text = number_text(value);
-  if (unit.empty()) return text;
-  return unit == "°" ? text + "°" : text + " " + QString::fromStdString(unit);
+  if (unit == "°") return QString::fromStdString(degrees_in_words(value));
+  const QString text = number_text(value, 3);
+  return unit.empty() ? text : text + " " + QString::fromStdString(unit);
 }
 
 ExplanationSection section_of(const QString& title, const Explanation& explanation) {

@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 
 #include "core/base/number_text.h"
+#include "core/guidance/explain_jump.h"
 #include "core/mesh/face_quality.h"
 #include "core/simplification/occupancy.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 QString tr(const char* text) { return QCoreApplication::translate("arris::ui::HoverText", text); }
 
-QString number(double value, int digits = 4) {
+QString number(double value, int digits = 3) {
   return std::isnan(value) ? QString("–") : QString::fromStdString(number_text(value, digits));
 }
 
@@ -35,7 +36,7 @@ QString hover_text(const Document& document, const Pick& pick) {
     text += tr("   |IHe| %1°").arg(number(angle, 3));
     // Only what is there already: the pointer does not wait.
     if (const LineEvidencePtr evidence = document.evidence ? document.evidence->known() : nullptr)
-      text += tr("   jump %1°").arg(number(std::abs(evidence->jump[pick.edge]), 3));
+      text += tr("   jump %1°").arg(number(std::abs(jump_that_counts(*evidence, pick.edge)), 3));
   }
   if (pick.face < document.mesh->face_count()) {
     text += tr("   quality %1").arg(number(face_quality(*document.mesh, pick.face), 2));

@@ -40,6 +40,7 @@
 #include "ui/window/actions.h"
 #include "ui/window/hover_text.h"
 #include "ui/window/picture_dialog.h"
+#include "ui/window/tab_order.h"
 #include "ui/window/theme.h"
 
 namespace arris::ui {
@@ -69,6 +70,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   start_page_ = new StartPage(stack_);
   view_ = new MeshView(stack_);
   stack_->addWidget(start_page_);
+  focus_ring_ = new FocusRing(this);
   side_by_side_ = new SideBySide(view_, marked_colour(), stack_);
   stack_->addWidget(side_by_side_);
   setCentralWidget(stack_);
@@ -174,6 +176,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   });
   connect(comparison_, &ComparisonPresenter::hovered, this, &MainWindow::show_hover);
   connect(view_, &MeshView::context_menu_wanted, this, &MainWindow::context_menu);
+  for (ElementTable* table : {lines_table_, partitions_table_, boundaries_table_})
+    connect(table, &ElementTable::context_menu_wanted, this, &MainWindow::table_menu);
   connect(fields_, &FieldPresenter::changed, this, [this] {
     for (QAction* a : field_actions_->actions())
       a->setChecked(a->data().toInt() == static_cast<int>(fields_->field()));
@@ -380,8 +384,8 @@ void MainWindow::make_actions() {
   connect(flip_, &QAction::triggered, this, [this] {
     session_->run({Operation{"flip_orientation", nlohmann::json::object()}});
   });
-  drop_ = action(part, tr("&Drop small components"), {},
-                 tr("Delete the components with fewer than a hundredth of the faces"));
+  drop_ = action(part, tr("&Drop small pieces"), {},
+                 tr("Delete loose pieces with fewer than a hundredth of the faces"));
   connect(drop_, &QAction::triggered, this, [this] {
     const std::size_t faces = session_->current().document.mesh->face_count();
     session_->run(
@@ -438,12 +442,21 @@ void MainWindow::make_actions() {
     bool on;
     void (MeshView::*set)(bool);
   };
-  for (const Toggle& t : {Toggle{tr("&Lines"), "L", tr("Show lines and boundaries"), true,
-                                 &MeshView::set_lines_visible},
-                          Toggle{tr("Mesh &edges"), "E", tr("Show the edges of the mesh"), false,
-                                 &MeshView::set_edges_visible},
-                          Toggle{tr("&Scalar bar"), "B", tr("Show the scalar bar"), true,
-                                 &MeshView::set_scalar_bar_visible}}) {
+  for (const Toggle& t :
+       {Toggle{tr("&Lines"), "L", tr("Show lines and boundaries"), true,
+               &MeshView::set_lines_visible},
+        Toggle{tr("Mesh &edges"), "E", tr("Show the edges of the mesh"), false,
+               &MeshView::set_edges_visible},
+        Toggle{tr("Flat s&hading"), "Shift+N",
+               tr("Shade each face by itself, as it is, instead of smooth between "
+                  "sharp edges"),
+               false, &MeshView::set_flat_shading},
+        Toggle{tr("Li&ght on field colours"), "Shift+L",
+               tr("Shade the colours of a field as the surface is lit; without "
+                  "light they are exactly those of the scalar bar"),
+               false, &MeshView::set_fields_lit},
+        Toggle{tr("&Scalar bar"), "B", tr("Show the scalar bar"), true,
+               &MeshView::set_scalar_bar_visible}}) {
     QAction* a = action(look, t.text, QKeySequence(t.shortcut), t.tooltip);
     a->setCheckable(true);
     a->setChecked(t.on);
@@ -706,10 +719,12 @@ void MainWindow::show_load_report() {
           .arg(QFileInfo(QString::fromStdString(report.file)).fileName(),
                QString::fromStdString(report.format), counted(report.file_faces, tr("faces")),
                counted(report.file_vertices, tr("vertices")));
-  text += "\n" + tr("The mesh has %1, %2, %3 and Euler number %4.")
+  text += "\n" + tr("The mesh has %1, %2, has %3 and Euler number %4.")
                      .arg(counted(report.faces, tr("triangles")),
-                          report.components == 1 ? tr("1 component")
-                                                 : counted(report.components, tr("components")),
+                          report.components == 1
+                              ? tr("hangs together in one piece")
+                              : tr("falls into %1 loose pieces")
+                                    .arg(count_text(static_cast<qint64>(report.components))),
                           counted(report.border_edges, tr("border edges")))
                      .arg(report.euler_number);
   QMessageBox box(QMessageBox::Information, tr("Load report"), text, QMessageBox::Ok, this);
@@ -825,7 +840,8 @@ void MainWindow::refresh_counts() {
   if (document.find_sharp_lines)
     text += "  ·  " + counted(document.lines.lines.size(), tr("lines"));
   if (document.find_partitions)
-    text += "  ·  " + counted(document.partitions.partitions.size(), tr("partitions"));
+    text += "  ·  " + counted(document.partitions.partitions.size(), tr("partitions")) +
+            (document.find_partitions->out_of_date ? tr(" (out of date)") : QString());
   if (elements_->hides_any()) text += "  ·  " + tr("some hidden (Shift+H shows all)");
   counts_label_->setText(text);
 }
@@ -854,6 +870,27 @@ void MainWindow::context_menu(const QPoint& global, const std::optional<Pick>& p
   menu.addSeparator();
   menu.addActions({copy_picture_, save_picture_});
   menu.exec(global);
+}
+
+void MainWindow::table_menu(const QPoint& global) {
+  QMenu menu(this);
+  for (QAction* a : part_actions_)
+    if (a->shortcut() == QKeySequence("Z")) menu.addAction(a);
+  menu.addSeparator();
+  menu.addActions(view_presenter_->visibility_actions());
+  menu.addSeparator();
+  if (!elements_->selected_lines().empty()) menu.addActions(treatments_->available_line_actions());
+  if (!elements_->selected_partitions().empty())
+    menu.addActions(treatments_->available_partition_actions());
+  menu.exec(global);
+}
+
+bool MainWindow::focusNextPrevChild(bool next) {
+  QWidget* to = beside_in_tab_order(*this, focusWidget(), next);
+  if (!to) return QMainWindow::focusNextPrevChild(next);
+  to->setFocus(next ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+  focus_ring_->show_round(to);
+  return true;
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

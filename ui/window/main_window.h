@@ -29,6 +29,8 @@ class QTimer;
 
 namespace arris::ui {
 
+class FocusRing;
+
 class HistoryPanel;
 class SectionBar;
 class StartPage;
@@ -65,6 +67,8 @@ class MainWindow : public QMainWindow {
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
+  /// Tab goes through what is on the screen, in its order.
+  bool focusNextPrevChild(bool next) override;
 
  private:
   void make_docks();
@@ -91,6 +95,8 @@ class MainWindow : public QMainWindow {
   /// The view, or both views while versions are compared.
   QImage picture(const PictureOptions& options);
   void context_menu(const QPoint& global, const std::optional<Pick>& pick);
+  /// What can be done with the rows that are selected in a table.
+  void table_menu(const QPoint& global);
   QDockWidget* add_dock(const QString& name, const QString& title, QWidget* content,
                         Qt::DockWidgetArea area);
 
@@ -142,6 +148,7 @@ class MainWindow : public QMainWindow {
   QActionGroup* field_actions_;
   std::vector<QAction*> part_actions_;  // need an open part
 
+  FocusRing* focus_ring_;
   QLabel* hover_label_;
   QLabel* counts_label_;
   QProgressBar* progress_;

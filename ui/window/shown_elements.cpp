@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "ui/panels/controls.h"
 #include "ui/view/colour_scale.h"
 
 namespace arris::ui {
@@ -67,6 +68,9 @@ void show_partitions_in(MeshView& view, const Document& document,
   for (FaceId f = 0; f < labels.size(); ++f) labels[f] = place[document.partitions.labels[f]];
   std::vector<QColor> by_label{QColor(205, 205, 205)};
   by_label.insert(by_label.end(), colours.begin(), colours.end());
+  // Found before an earlier step changed: still there, but greyed.
+  if (document.find_partitions && document.find_partitions->out_of_date)
+    for (QColor& colour : by_label) colour = mix(colour, QColor(205, 205, 205), 0.6);
   view.set_face_labels(std::move(labels), std::move(by_label));
 }
 

@@ -96,14 +96,15 @@ void ThresholdPresenter::refresh() {
       handle.value = angle;
       handle.least = least_angle;
       handle.most = most_angle;
-      if (field == Field::ihe) handle.reading = "TV_IK " + number(ikabs_of_angle(angle));
+      if (field == Field::ihe)
+        handle.reading = [](double degrees) { return "TV_IK " + number(ikabs_of_angle(degrees)); };
       targets.push_back({Target::Kind::sharp_angle});
     } else {
       handle.name = "TV_IK";
       handle.value = ikabs_of_angle(angle);
       handle.least = ikabs_of_angle(least_angle);
       handle.most = ikabs_of_angle(most_angle);
-      handle.reading = "TV_IH " + number(angle) + "°";
+      handle.reading = [](double ikabs) { return "TV_IH " + number(angle_of_ikabs(ikabs)) + "°"; };
       targets.push_back({Target::Kind::sharp_ikabs});
     }
     handle.tooltip =
@@ -134,7 +135,8 @@ void ThresholdPresenter::refresh() {
       const Distribution& distribution = fields_->distribution();
       handle.most = std::max(distribution.max(), bound * 1.01);
       handle.least = std::min(handle.most * 1e-7, bound);
-      if (field == Field::kabs) handle.reading = "r = " + number(cylinder_radius(bound)) + " mm";
+      if (field == Field::kabs)
+        handle.reading = [](double kabs) { return "r = " + number(cylinder_radius(kabs)) + " mm"; };
       handle.tooltip =
           tr("End of a curvature interval: partitions take faces whose vertices lie between Kmin "
              "and Kmax. Drag it: the partitions follow.");

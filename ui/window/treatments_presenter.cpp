@@ -195,14 +195,17 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
       [this] { connect_partitions(); });
   add(
       menu, partition_actions_, tr("&Extend…"), "Shift+E",
-      tr("The selected partition grows over its undefined boundaries under its own interval"),
+      tr("The selected partitions grow over their undefined boundaries under an interval of their "
+         "own"),
       [this]() -> QString {
-        const QString why = needs_partitions(1, 1);
+        const QString why = needs_partitions(1, no_id);
         if (!why.isEmpty()) return why;
-        const std::uint32_t id = *one_partition();
+        const auto& ids = elements_->selected_partitions();
         for (const BoundaryPtr& b : session_->current().boundaries)
-          if (b->type == BoundaryType::undefined && (b->left == id || b->right == id)) return {};
-        return tr("It has no undefined boundary: there is nothing to extend into.");
+          if (b->type == BoundaryType::undefined &&
+              (ids.contains(b->left) || ids.contains(b->right)))
+            return {};
+        return tr("Nothing unassigned lies beside it: there is nothing to extend into.");
       },
       [this] { extend_partition(); });
   add(menu, partition_actions_, tr("&Restart…"), "Shift+R",
@@ -257,7 +260,21 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
                  chosen.empty() ? json::object() : json{{"partitions", chosen}}});
       });
   add(menu, partition_actions_, tr("Remove s&mall ones…"), "Shift+M",
-      tr("Removes partitions under a number of faces"), found, [this] { remove_small(); });
+      tr("Partitions under a number of faces go to their neighbours, or are removed"), found,
+      [this] { remove_small(); });
+  add(
+      menu, partition_actions_, tr("Fi&ll the unassigned…"), "Shift+I",
+      tr("Areas in no partition go to the neighbours they belong to: by curvature, then by the "
+         "longest border"),
+      [this]() -> QString {
+        const QString why = needs_found_partitions();
+        if (!why.isEmpty()) return why;
+        const auto& labels = session_->current().document.partitions.labels;
+        for (FaceId f = 0; f < labels.size(); ++f)
+          if (labels[f] == 0) return {};
+        return tr("Every face is in a partition.");
+      },
+      [this] { fill_unassigned(); });
   refresh();
 }
 
@@ -422,7 +439,7 @@ void TreatmentsPresenter::stop() {
 
 void TreatmentsPresenter::show_result() {
   const Document &before = session_->current().document, &after = session_->shown().document;
-  const auto mm = [](double length) { return number_text(length, 4) + tr(" mm"); };
+  const auto mm = [](double length) { return number_text(length, 3) + tr(" mm"); };
   double length_before = 0.0, length_after = 0.0;
   for (const LinePtr& line : before.lines.lines) length_before += line->length;
   for (const LinePtr& line : after.lines.lines) length_after += line->length;
@@ -609,15 +626,20 @@ void TreatmentsPresenter::connect_partitions() {
 }
 
 void TreatmentsPresenter::extend_partition() {
-  const std::uint32_t id = *one_partition();
-  const CurvatureInterval interval = session_->current().document.partitions.find(id)->interval;
+  const json ids = selected_partitions();
+  double most = 0.0;
+  for (const std::uint32_t id : elements_->selected_partitions())
+    if (const double end = session_->current().document.partitions.find(id)->interval.max;
+        std::isfinite(end))
+      most = std::max(most, end);
   tune(
-      tr("Extend partition %1 up to Kmax").arg(id),
-      [this, id] {
+      ids.size() == 1 ? tr("Extend partition %1 up to Kmax").arg(ids[0].get<int>())
+                      : tr("Extend %1 partitions up to Kmax").arg(ids.size()),
+      [this, ids] {
         return Operation{"extend_partition",
-                         {{"partition", id}, {"interval", {0.0, bar_->value()}}}};
+                         {{"partitions", ids}, {"interval", {0.0, bar_->value()}}}};
       },
-      curvature_number(std::isfinite(interval.max) ? interval.max : 0.0));
+      curvature_number(most));
 }
 
 void TreatmentsPresenter::restart_partitions() {
@@ -658,10 +680,27 @@ void TreatmentsPresenter::remove_small() {
       tr("Remove partitions under"),
       [this] {
         return Operation{"remove_small_partitions",
-                         {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
+                         {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))},
+                          {"fill", bar_->choice() != 1}}};
       },
       TreatmentBar::Number{low, high, begin, true, tr(" faces"),
                            tr("Partitions with fewer faces go. Drag or type; Enter accepts."),
+                           true},
+      TreatmentBar::Choice{{tr("Neighbours take them over"), tr("They leave holes")},
+                           tr("What becomes of the faces they had")});
+}
+
+void TreatmentsPresenter::fill_unassigned() {
+  constexpr double low = 1.0;
+  const double high = std::max<double>(10.0, session_->current().document.partitions.labels.size());
+  tune(
+      tr("Fill unassigned areas up to"),
+      [this] {
+        return Operation{"fill_unassigned",
+                         {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
+      },
+      TreatmentBar::Number{low, high, high, true, tr(" faces"),
+                           tr("Larger areas stay in no partition. Drag or type; Enter accepts."),
                            true});
 }
 

@@ -74,6 +74,7 @@ class TreatmentsPresenter : public QObject {
   void connect_partitions();
   void restart_partitions();
   void remove_small();
+  void fill_unassigned();
   void lock(bool locked);
   /// The next brush stroke goes to `use`.
   void brush(const QString& hint, std::function<void(nlohmann::json region)> use);

@@ -4,10 +4,9 @@
 #include <iterator>
 #include <utility>
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
 #include "ui/panels/controls.h"
 #include "ui/window/actions.h"
-#include "ui/window/places.h"
 
 namespace arris::ui {
 
@@ -34,7 +33,7 @@ QString title_of(WorkKind kind) {
 }
 
 QString choice_text(const Continuation& way) {
-  const QString length = arris::ui::number_text(way.length, 3) + " mm";
+  const QString length = QString::fromStdString(measure_text(way.length)) + " mm";
   const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
                         : way.arrives ? QObject::tr("to the border")
                                       : QObject::tr("fading out");
@@ -90,6 +89,7 @@ WorklistPresenter::WorklistPresenter(Session* session, MeshView* view, ElementsP
   connect(panel_, &WorklistPanel::previous_wanted, this, &WorklistPresenter::previous);
   connect(panel_, &WorklistPanel::accept_wanted, this, &WorklistPresenter::accept);
   connect(panel_, &WorklistPanel::dismiss_wanted, this, &WorklistPresenter::dismiss);
+  connect(panel_, &WorklistPanel::dismiss_under_wanted, this, &WorklistPresenter::dismiss_under);
   list();
 }
 
@@ -104,6 +104,10 @@ void WorklistPresenter::add_actions(QMenu* menu) {
       action(menu, tr("&Accept"), QKeySequence("A"),
              tr("Draw the line or make the cuts that the worklist proposes, shown dashed"));
   connect(accept_action_, &QAction::triggered, this, &WorklistPresenter::accept);
+  dismiss_action_ = action(menu, tr("&Dismiss"), QKeySequence("Shift+A"),
+                           tr("Leave it as it is and take it off the worklist, as long as this "
+                              "window is open"));
+  connect(dismiss_action_, &QAction::triggered, this, &WorklistPresenter::dismiss);
   bring_back_ = action(menu, tr("&Bring back what was dismissed"), {},
                        tr("Put the things taken off the worklist on it again"));
   connect(bring_back_, &QAction::triggered, this, &WorklistPresenter::bring_back);
@@ -140,7 +144,7 @@ void WorklistPresenter::outdate(bool other_mesh) {
   }
   panel_->set_stale(true);
   refresh_summary();
-  if (shown_) settle_.start(settle_time);
+  if (shown_) settle_.start(go_to_ >= 0 ? 0 : settle_time);
 }
 
 void WorklistPresenter::look() {
@@ -173,7 +177,14 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
     std::copy_if(items_.begin(), items_.end(), std::back_inserter(leaks_),
                  [](const WorkItem& item) { return item.kind == WorkKind::leak; });
   }
-  std::erase_if(items_, [this](const WorkItem& item) { return dismissed_.contains(key_of(item)); });
+  dismissed_here_ = std::erase_if(
+      items_, [this](const WorkItem& item) { return dismissed_.contains(key_of(item)); });
+  double small = 0.0;
+  for (const WorkItem& item : items_)
+    if (item.small) small = std::max(small, item.extent);
+  const Mesh& mesh = *session_->current().document.mesh;
+  panel_->set_small_extent(
+      round_significant(std::max(1.001 * small, 2.0 * mesh.mean_edge_length()), 2));
   list();
   if (const int row = std::exchange(go_to_, -1); row >= 0 && !items_.empty())
     show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
@@ -182,7 +193,8 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
 void WorklistPresenter::list() {
   std::vector<WorkRow> rows;
   for (const WorkItem& item : items_) {
-    WorkRow row{title_of(item.kind), QString::fromStdString(item.sentence), {}};
+    WorkRow row{
+        item.small ? tr("Small") : title_of(item.kind), QString::fromStdString(item.sentence), {}};
     for (const Continuation& way : item.continuations) row.choices << choice_text(way);
     rows.push_back(std::move(row));
   }
@@ -205,13 +217,13 @@ void WorklistPresenter::refresh_summary() {
                    : count == 1 ? tr("1 thing left")
                                 : tr("%1 things left").arg(count_text(count));
     if (current_ && more > 0)
-      left += more == 1 ? tr("; 1 partition has more than four sides")
-                        : tr("; %1 partitions have more than four sides").arg(count_text(more));
+      left += more == 1 ? tr("; 1 partition is no four-sided patch")
+                        : tr("; %1 partitions are no four-sided patches").arg(count_text(more));
     summary =
         tr("%1 % of the area assigned, %2")
             .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)), left);
-    if (!dismissed_.empty())
-      summary += tr(" (%1 dismissed)").arg(count_text(static_cast<qint64>(dismissed_.size())));
+    if (current_ && dismissed_here_ > 0)
+      summary += tr(" (%1 dismissed)").arg(count_text(static_cast<qint64>(dismissed_here_)));
     if (current_ && partitions_out_of_date())
       summary += tr(". Lines have changed since the partitions were found: F5 finds them again.");
     empty = current_ ? tr("Nothing is left to do.") : tr("Looking for what is left …");
@@ -265,7 +277,7 @@ void WorklistPresenter::show(int row, int choice, bool zoom) {
   view_->set_ghost_paths(std::move(ghosts));
   view_->set_picked_points(std::move(rings));
   marked_ = true;
-  if (zoom) show_place(*view_, *document.mesh, place);
+  if (zoom) view_->show_place(place);
   plan_cuts(row);
   refresh_buttons();
 }
@@ -305,11 +317,12 @@ void WorklistPresenter::accept() {
   std::vector<Operation> operations;
   if (item.kind == WorkKind::many_borders)
     operations.push_back({"split_to_four_sides", {{"partitions", item.partitions}}});
+  else if (const auto& paths = ways[static_cast<std::size_t>(panel_->current_choice())];
+           paths.size() == 1)
+    operations.push_back({"draw_line", {{"vertices", paths.front()}}});
   else
-    for (const std::vector<VertexId>& path :
-         ways[static_cast<std::size_t>(panel_->current_choice())])
-      operations.push_back({"draw_line", {{"vertices", path}}});
-  go_to_ = row;  // what follows moves up
+    operations.push_back({"draw_line", {{"paths", paths}}});  // one entry of the history
+  go_to_ = row;                                               // what follows moves up
   const std::string settled = key_of(items_[static_cast<std::size_t>(row)]);
   std::erase_if(leaks_, [&](const WorkItem& leak) { return key_of(leak) == settled; });
   session_->run(std::move(operations));
@@ -320,9 +333,21 @@ void WorklistPresenter::dismiss() {
   if (!current_ || row < 0) return;
   dismissed_.insert(key_of(items_[static_cast<std::size_t>(row)]));
   items_.erase(items_.begin() + row);
+  ++dismissed_here_;
   clear_marks();
   list();
   if (!items_.empty()) show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
+}
+
+void WorklistPresenter::dismiss_under(double extent) {
+  if (!current_) return;
+  dismissed_here_ += std::erase_if(items_, [&](const WorkItem& item) {
+    const bool goes = is_left(item) && item.extent < extent;
+    if (goes) dismissed_.insert(key_of(item));
+    return goes;
+  });
+  clear_marks();
+  list();
 }
 
 void WorklistPresenter::bring_back() {
@@ -348,6 +373,8 @@ void WorklistPresenter::refresh_buttons() {
   if (!accept_action_) return;
   set_available(accept_action_, can_accept(),
                 tr("Go to something in the worklist (F7) that has a way on, shown dashed."));
+  set_available(dismiss_action_, shown_ && chosen,
+                tr("Go to something in the worklist (F7) first."));
   set_available(bring_back_, !dismissed_.empty(), tr("Nothing was dismissed."));
 }
 

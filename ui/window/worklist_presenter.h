@@ -38,6 +38,8 @@ class WorklistPresenter : public QObject {
   void previous() { step(-1); }
   void accept();
   void dismiss();
+  /// All that is left and changes less than `extent`, mm.
+  void dismiss_under(double extent);
   /// What was dismissed is on the list again.
   void bring_back();
 
@@ -67,6 +69,7 @@ class WorklistPresenter : public QObject {
   LatestWork* cuts_;
   QTimer settle_;
   QAction* accept_action_ = nullptr;
+  QAction* dismiss_action_ = nullptr;
   QAction* bring_back_ = nullptr;
   bool shown_ = false;
   bool current_ = false;  // the list is that of the current document
@@ -77,7 +80,8 @@ class WorklistPresenter : public QObject {
       leaks_;  // of when the partitions were last up to date, but for those closed
   std::optional<Step> leaks_lines_;  // as the lines were found then
   std::set<std::string> dismissed_;
-  std::set<std::string> planned_;  // items whose cuts were worked out
+  std::size_t dismissed_here_ = 0;  // of them, those that would be on the list now
+  std::set<std::string> planned_;   // items whose cuts were worked out
 };
 
 }  // namespace arris::ui

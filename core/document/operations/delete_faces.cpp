@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/words.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 #include "core/mesh/build_mesh.h"
@@ -133,16 +134,17 @@ Result<Document> apply_delete(const Document& document, const nlohmann::json& pa
   return result;
 }
 
-std::string gist_delete(const nlohmann::json& parameters) {
-  if (parameters.contains("faces")) return std::to_string(parameters["faces"].size()) + " faces";
+std::string words_of_delete(const nlohmann::json& parameters) {
+  if (parameters.contains("faces"))
+    return "Delete " + counted(parameters["faces"].size(), "face", "faces");
   if (parameters.contains("components_under"))
-    return "components under " + parameters["components_under"].dump() + " faces";
-  return parameters.value("side", "inside") + " a box";
+    return "Drop loose pieces of fewer than " + parameters["components_under"].dump() + " faces";
+  return "Delete what is " + parameters.value("side", "inside") + " a box";
 }
 
 }  // namespace
 
 const OperationKind delete_faces_operation{"delete_faces", "Delete faces", 1,
-                                           resolve_delete, apply_delete,   gist_delete};
+                                           resolve_delete, apply_delete,   words_of_delete};
 
 }  // namespace arris

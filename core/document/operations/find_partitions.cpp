@@ -70,22 +70,23 @@ nlohmann::json upgrade_partitions(int, nlohmann::json parameters) {
   return parameters;
 }
 
-std::string gist_partitions(const nlohmann::json& parameters) {
+std::string words_of_partitions(const nlohmann::json& parameters) {
+  const std::string text = "Find partitions";
   if (parameters.value("method", "fronts") == "surfaces")
-    return "detail " + number_text(parameters.value("detail", 1.0), 3);
-  std::string text = parameters.value("criterion", "kabs") == "kabs" ? "Kabs" : "IKabs";
-  if (!parameters.contains("intervals")) return text;
-  for (const auto& interval : parameters["intervals"]) {
-    text += " " + number_text(interval[0].get<double>(), 3) + ":";
-    if (!interval[1].is_null()) text += number_text(interval[1].get<double>(), 3);
-  }
-  return text;
+    return text + ", detail " + number_text(parameters.value("detail", 1.0), 3);
+  std::string intervals;
+  if (const auto given = parameters.find("intervals");
+      given != parameters.end() && given->is_array())
+    for (const auto& interval : *given)
+      intervals += (intervals.empty() ? " " : ", ") + interval_in_words(interval_of(interval));
+  return text + ", " + (parameters.value("criterion", "kabs") == "kabs" ? "Kabs" : "IKabs") +
+         intervals;
 }
 
 }  // namespace
 
 const OperationKind find_partitions_operation{
-    "find_partitions", "Find partitions", 2, resolve_partitions, apply_partitions,
-    gist_partitions,   upgrade_partitions};
+    "find_partitions",   "Find partitions", 2, resolve_partitions, apply_partitions,
+    words_of_partitions, upgrade_partitions};
 
 }  // namespace arris

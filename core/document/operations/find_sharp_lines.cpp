@@ -1,6 +1,6 @@
 #include "core/sharp_lines/sharp_lines.h"
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 #include "core/document/treatments/treatment.h"
@@ -54,15 +54,15 @@ nlohmann::json upgrade_lines(int, nlohmann::json parameters) {
   return parameters;
 }
 
-std::string gist_lines(const nlohmann::json& parameters) {
-  if (!parameters.contains("angle")) return "";
-  return fixed_text(parameters["angle"].get<double>(), 1) + "°";
+std::string words_of_lines(const nlohmann::json& parameters) {
+  if (!parameters.contains("angle")) return "Find sharp lines";
+  return "Find sharp lines, " + degrees_in_words(parameters["angle"].get<double>());
 }
 
 }  // namespace
 
-const OperationKind find_sharp_lines_operation{"find_sharp_lines", "Find sharp lines", 2,
-                                               resolve_lines,      apply_lines,        gist_lines,
-                                               upgrade_lines};
+const OperationKind find_sharp_lines_operation{
+    "find_sharp_lines", "Find sharp lines", 2, resolve_lines, apply_lines,
+    words_of_lines,     upgrade_lines};
 
 }  // namespace arris

@@ -67,11 +67,11 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
   return result;
 }
 
-std::string gist_flip(const nlohmann::json&) { return ""; }
+std::string words_of_flip(const nlohmann::json&) { return "Flip orientation"; }
 
 }  // namespace
 
-const OperationKind flip_orientation_operation{"flip_orientation", "Flip orientation", 1,
-                                               resolve_flip,       apply_flip,         gist_flip};
+const OperationKind flip_orientation_operation{
+    "flip_orientation", "Flip orientation", 1, resolve_flip, apply_flip, words_of_flip};
 
 }  // namespace arris

@@ -82,16 +82,16 @@ Result<Document> apply_open(const Document& document, const nlohmann::json& para
   return result;
 }
 
-std::string gist_open(const nlohmann::json& parameters) {
+std::string words_of_open(const nlohmann::json& parameters) {
   const std::string path = parameters.value("file", "");
   const std::size_t slash = path.find_last_of("/\\");
-  return slash == std::string::npos ? path : path.substr(slash + 1);
+  return "Open " + (slash == std::string::npos ? path : path.substr(slash + 1));
 }
 
 }  // namespace
 
-const OperationKind open_operation{"open",     "Open",    2,           resolve_open,
-                                   apply_open, gist_open, upgrade_open};
+const OperationKind open_operation{"open",     "Open",        2,           resolve_open,
+                                   apply_open, words_of_open, upgrade_open};
 
 Operation open_file(const std::string& path, bool weld) {
   nlohmann::json parameters{{"file", path}};

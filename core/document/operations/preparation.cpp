@@ -78,9 +78,9 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
               &Document::simplified, parameters, context.part(0.9, 1.0));
 }
 
-std::string gist_simplify(const nlohmann::json& parameters) {
-  if (!parameters.contains("error_zone")) return "";
-  return number_text(parameters["error_zone"].get<double>(), 3) + " mm";
+std::string words_of_simplify(const nlohmann::json& parameters) {
+  if (!parameters.contains("error_zone")) return "Simplify";
+  return "Simplify within " + number_text(parameters["error_zone"].get<double>(), 3) + " mm";
 }
 
 Result<nlohmann::json> resolve_swap(const Document&, const nlohmann::json& given) {
@@ -113,15 +113,17 @@ Result<Document> apply_equilateralize(const Document& document, const nlohmann::
               nullptr, parameters, context.part(0.9, 1.0));
 }
 
-std::string no_gist(const nlohmann::json&) { return ""; }
+std::string words_of_swap(const nlohmann::json&) { return "Swap edges"; }
+std::string words_of_equilateralize(const nlohmann::json&) { return "Equilateralise"; }
 
 }  // namespace
 
 const OperationKind simplify_operation{"simplify",       "Simplify",     1,
-                                       resolve_simplify, apply_simplify, gist_simplify};
+                                       resolve_simplify, apply_simplify, words_of_simplify};
 const OperationKind swap_edges_operation{"swap_edges", "Swap edges", 1,
-                                         resolve_swap, apply_swap,   no_gist};
-const OperationKind equilateralize_operation{"equilateralize",       "Equilateralise",     1,
-                                             resolve_equilateralize, apply_equilateralize, no_gist};
+                                         resolve_swap, apply_swap,   words_of_swap};
+const OperationKind equilateralize_operation{
+    "equilateralize",       "Equilateralise",     1,
+    resolve_equilateralize, apply_equilateralize, words_of_equilateralize};
 
 }  // namespace arris

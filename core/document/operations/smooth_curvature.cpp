@@ -1,4 +1,5 @@
 #include "core/curvature_smoothing/smooth_curvature.h"
+#include "core/base/words.h"
 
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
@@ -27,14 +28,14 @@ Result<Document> apply_smooth(const Document& document, const nlohmann::json& pa
   return result;
 }
 
-std::string gist_smooth(const nlohmann::json& parameters) {
-  const int passes = parameters.value("passes", 0);
-  return std::to_string(passes) + (passes == 1 ? " pass" : " passes");
+std::string words_of_smooth(const nlohmann::json& parameters) {
+  if (!parameters.contains("passes")) return "Smooth curvature";
+  return "Smooth curvature, " + counted(parameters.value("passes", 0), "pass", "passes");
 }
 
 }  // namespace
 
-const OperationKind smooth_curvature_operation{"smooth_curvature", "Smooth curvature", 1,
-                                               resolve_smooth,     apply_smooth,       gist_smooth};
+const OperationKind smooth_curvature_operation{
+    "smooth_curvature", "Smooth curvature", 1, resolve_smooth, apply_smooth, words_of_smooth};
 
 }  // namespace arris

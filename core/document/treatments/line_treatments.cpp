@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
 #include "core/document/treatments/treatments.h"
 
 namespace arris {
@@ -23,18 +23,14 @@ double read_angle(ParameterReader& reader, const Document& document) {
   return reader.real("angle", angle_in_force(document), 0.1, 179.9);
 }
 
-std::string ids_text(const json& ids) {
-  std::string text;
-  for (std::size_t k = 0; k < ids.size() && k < 3; ++k) text += (k > 0 ? ", " : "") + ids[k].dump();
-  return ids.size() > 3 ? std::to_string(ids.size()) : text;
+std::string of_line(const char* done, const json& parameters) {
+  return std::string(done) + " " + targets_in_words(parameters, "line", "lines");
 }
 
-std::string lines_gist(const json& parameters) {
-  return parameters.contains("lines") ? ids_text(parameters["lines"]) : "";
-}
-std::string line_gist(const json& parameters) {
-  return parameters.contains("line") ? parameters["line"].dump() : "";
-}
+std::string words_of_delete(const json& parameters) { return of_line("Delete", parameters); }
+std::string words_of_trim(const json& parameters) { return of_line("Trim", parameters); }
+std::string words_of_split(const json& parameters) { return of_line("Split", parameters); }
+std::string words_of_reroute(const json& parameters) { return of_line("Reroute", parameters); }
 
 // delete_lines: {lines: [ids]}
 
@@ -87,10 +83,10 @@ Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-std::string extend_gist(const json& parameters) {
-  return line_gist(parameters) +
+std::string words_of_extend(const json& parameters) {
+  return of_line("Extend", parameters) +
          (parameters.contains("angle")
-              ? ", " + fixed_text(parameters["angle"].get<double>(), 1) + "°"
+              ? " down to " + degrees_in_words(parameters["angle"].get<double>())
               : "");
 }
 
@@ -143,8 +139,7 @@ Result<json> resolve_split(const Document& document, const json& given) {
 Result<Outcome> split(Ground& ground, const json& parameters, Round) {
   const VertexId vertex = parameters.at("vertex");
   if (sharp_edges_at(ground.mesh, ground.lines, vertex).size() != 2)
-    return fail("No line goes through vertex " + std::to_string(vertex) +
-                " that could be split there.");
+    return fail("No single line runs through that point, so there is none to split.");
   ground.change(LineChanges{{}, {vertex}});
   return Outcome{};
 }
@@ -177,44 +172,79 @@ Result<Outcome> merge(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-std::string merge_gist(const json& parameters) {
-  return parameters.contains("a") && parameters.contains("b")
-             ? parameters["a"].dump() + " and " + parameters["b"].dump()
-             : "";
+std::string words_of_merge(const json& parameters) {
+  if (!parameters.contains("a") || !parameters.contains("b")) return "Merge lines";
+  return "Merge lines " + parameters["a"].dump() + " and " + parameters["b"].dump();
 }
 
-// draw_line: {vertices: [v, ...], angle: degrees}
+// draw_line: {vertices: [v, ...], or paths: [[v, ...], ...] for several lines, angle: degrees,
+// part: whether partitions that the lines part fall into their pieces at once}
 
 Result<json> resolve_draw(const Document& document, const json& given) {
   ParameterReader reader("draw_line", given);
-  read_path(reader, document, "vertices", 2);
+  if (reader.has("vertices") == reader.has("paths")) {
+    reader.fault("vertices", "either the vertices of a line or the paths of several");
+  } else if (reader.has("vertices")) {
+    read_path(reader, document, "vertices", 2);
+  } else {
+    const json paths = reader.raw("paths");
+    if (!paths.is_array() || paths.empty()) reader.fault("paths", "a list of paths");
+    for (std::size_t k = 0; paths.is_array() && k < paths.size(); ++k) {
+      const json one{{"path", paths[k]}};
+      ParameterReader path("draw_line", one);
+      read_path(path, document, "path", 2);
+      if (!path.check()) reader.fault("paths", "paths of two or more vertices of the working mesh");
+    }
+    reader.set("paths", paths);
+  }
   read_angle(reader, document);
+  reader.flag("part", true);
   return reader.finish();
 }
 
 Result<Outcome> draw(Ground& ground, const json& parameters, Round round) {
   Outcome outcome;
-  Path points = path_of(parameters.at("vertices"));
+  std::vector<Path> lines = parameters.contains("paths")
+                                ? paths_of(parameters.at("paths"))
+                                : std::vector<Path>{path_of(parameters.at("vertices"))};
   if (round != Round::first) {
-    const std::size_t before = points.size();
-    std::erase_if(points, [&](VertexId v) {
-      return v >= ground.mesh.vertex_count() || ground.mesh.is_isolated(v);
-    });
-    if (points.size() < before)
-      outcome.adapted = std::to_string(before - points.size()) + " of its " +
-                        std::to_string(before) + " points are no longer in the working mesh.";
+    std::size_t before = 0, after = 0;
+    for (Path& points : lines) {
+      before += points.size();
+      std::erase_if(points, [&](VertexId v) {
+        return v >= ground.mesh.vertex_count() || ground.mesh.is_isolated(v);
+      });
+      after += points.size();
+    }
+    if (after < before)
+      outcome.adapted = std::to_string(before - after) + " of its " + std::to_string(before) +
+                        " points are no longer in the working mesh.";
   }
-  const Result<Path> path =
-      path_through(ground.mesh, ground.measures(), points, parameters.at("angle"));
-  if (!path) return tl::unexpected<Error>(path.error());
-  ground.change(add_path(ground.mesh, ground.lines, *path, Origin::drawn));
+  for (Path& points : lines) {
+    Result<Path> path =
+        path_through(ground.mesh, ground.measures(), points, parameters.at("angle"));
+    if (!path) return tl::unexpected<Error>(path.error());
+    points = std::move(*path);
+  }
+  for (const Path& path : lines)
+    ground.change(add_path(ground.mesh, ground.lines, path, Origin::drawn));
+  if (round == Round::first && parameters.at("part")) ground.part_along(lines);
   return outcome;
 }
 
-std::string draw_gist(const json& parameters) {
+/// Version 1 left partitions as they were.
+json upgrade_draw(int, json parameters) {
+  parameters["part"] = false;
+  return parameters;
+}
+
+std::string words_of_draw(const json& parameters) {
+  if (const auto paths = parameters.find("paths"); paths != parameters.end() && paths->is_array())
+    return paths->size() == 1 ? std::string("Draw a line")
+                              : "Draw " + counted(paths->size(), "line", "lines");
   return parameters.contains("vertices")
-             ? "through " + std::to_string(parameters["vertices"].size()) + " points"
-             : "";
+             ? "Draw a line through " + counted(parameters["vertices"].size(), "point", "points")
+             : "Draw a line";
 }
 
 // reroute_line: {line: id, from: v, to: v, via: v}: between `from` and `to` it runs through `via`
@@ -297,11 +327,11 @@ Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
   return Outcome{};
 }
 
-std::string recompute_gist(const json& parameters) {
-  if (!parameters.contains("angle")) return "";
-  return (parameters.contains("lines") ? ids_text(parameters["lines"])
-                                       : std::string("in a region")) +
-         ", " + fixed_text(parameters["angle"].get<double>(), 1) + "°";
+std::string words_of_recompute(const json& parameters) {
+  const std::string what = parameters.contains("region") ? "Find lines again in a region"
+                                                         : of_line("Recompute", parameters);
+  if (!parameters.contains("angle")) return what;
+  return what + ", " + degrees_in_words(parameters["angle"].get<double>());
 }
 
 template <const Treatment& treatment>
@@ -321,21 +351,24 @@ const Treatment reroute_line_treatment{"reroute_line", after_lines, reroute};
 const Treatment recompute_lines_treatment{"recompute_lines", after_lines, recompute};
 
 const OperationKind delete_lines_operation{
-    "delete_lines", "Delete lines", 1, resolve_delete, apply<delete_lines_treatment>, lines_gist};
+    "delete_lines", "Delete lines", 1, resolve_delete, apply<delete_lines_treatment>,
+    words_of_delete};
 const OperationKind extend_line_operation{
-    "extend_line", "Extend line", 1, resolve_extend, apply<extend_line_treatment>, extend_gist};
+    "extend_line", "Extend line", 1, resolve_extend, apply<extend_line_treatment>, words_of_extend};
 const OperationKind trim_line_operation{
-    "trim_line", "Trim line", 1, resolve_trim, apply<trim_line_treatment>, line_gist};
+    "trim_line", "Trim line", 1, resolve_trim, apply<trim_line_treatment>, words_of_trim};
 const OperationKind split_line_operation{
-    "split_line", "Split line", 1, resolve_split, apply<split_line_treatment>, line_gist};
+    "split_line", "Split line", 1, resolve_split, apply<split_line_treatment>, words_of_split};
 const OperationKind merge_lines_operation{
-    "merge_lines", "Merge lines", 1, resolve_merge, apply<merge_lines_treatment>, merge_gist};
+    "merge_lines", "Merge lines", 1, resolve_merge, apply<merge_lines_treatment>, words_of_merge};
 const OperationKind draw_line_operation{
-    "draw_line", "Draw line", 1, resolve_draw, apply<draw_line_treatment>, draw_gist};
+    "draw_line",   "Draw line", 2, resolve_draw, apply<draw_line_treatment>,
+    words_of_draw, upgrade_draw};
 const OperationKind reroute_line_operation{
-    "reroute_line", "Reroute line", 1, resolve_reroute, apply<reroute_line_treatment>, line_gist};
+    "reroute_line",  "Reroute line", 1, resolve_reroute, apply<reroute_line_treatment>,
+    words_of_reroute};
 const OperationKind recompute_lines_operation{
     "recompute_lines", "Recompute lines", 1, resolve_recompute, apply<recompute_lines_treatment>,
-    recompute_gist};
+    words_of_recompute};
 
 }  // namespace arris

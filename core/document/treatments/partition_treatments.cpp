@@ -1,12 +1,14 @@
 // The interactive treatments of partitions and boundaries (section 7.2).
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 #include <unordered_map>
 
-#include "core/base/number_text.h"
+#include "core/base/words.h"
+#include "core/document/treatments/partition_targets.h"
 #include "core/document/treatments/treatments.h"
 #include "core/partitions/four_sided_cuts.h"
 
@@ -16,57 +18,19 @@ namespace {
 
 using nlohmann::json;
 
-bool after_partitions(const json&, Round round) { return round == Round::after_partitions; }
-
-/// The partitions meant by "partitions" and "anchors"; those no longer there are noted.
-std::vector<PartitionPtr> find_all(const Ground& ground, const json& parameters, Round round,
-                                   Outcome& outcome) {
-  std::vector<PartitionPtr> found;
-  const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Result<PartitionPtr> partition =
-        find_partition(ground, ids[k], parameters.at("anchors")[k].get<Triangle>(), round, outcome);
-    if (!partition)
-      outcome.adapted = partition.error().message;
-    else if (std::find(found.begin(), found.end(), *partition) == found.end())
-      found.push_back(*partition);
-  }
-  return found;
+std::string words_of_connect(const json& parameters) { return of_partition("Connect", parameters); }
+std::string words_of_restart(const json& parameters) {
+  return of_partition("Restart", parameters) + interval_after_comma(parameters);
 }
-
-Result<PartitionPtr> find_one(const Ground& ground, const json& parameters, Round round,
-                              Outcome& outcome) {
-  return find_partition(ground, parameters.at("partition"), parameters.at("anchor").get<Triangle>(),
-                        round, outcome);
+std::string words_of_recompute(const json& parameters) {
+  return "Find partitions again in a region" + interval_after_comma(parameters);
 }
-
-FaceLabels labelled(const std::vector<FaceId>& faces, std::uint32_t label) {
-  FaceLabels labels;
-  for (const FaceId f : faces) labels.emplace_back(f, label);
-  return labels;
+std::string words_of_split(const json& parameters) { return of_partition("Split", parameters); }
+std::string words_of_four_sides(const json& parameters) {
+  return of_partition("Cut", parameters) + " into four sides";
 }
-
-Result<void> needs_partitions(const Document& document) {
-  if (document.partitions.labels.empty()) return fail("Find partitions first: there are none yet.");
-  return {};
-}
-
-std::string partitions_gist(const json& parameters) {
-  if (parameters.contains("partition")) return parameters["partition"].dump();
-  if (!parameters.contains("partitions")) return "";
-  const json& ids = parameters["partitions"];
-  std::string text;
-  for (std::size_t k = 0; k < ids.size() && k < 3; ++k) text += (k > 0 ? ", " : "") + ids[k].dump();
-  return ids.size() > 3 ? std::to_string(ids.size()) : text;
-}
-
-std::string interval_gist(const json& parameters) {
-  std::string text = partitions_gist(parameters);
-  if (!parameters.contains("interval") || !parameters["interval"].is_array()) return text;
-  const json& interval = parameters["interval"];
-  text += (text.empty() ? "" : ", ") + number_text(interval[0].get<double>(), 3) + ":";
-  if (!interval[1].is_null()) text += number_text(interval[1].get<double>(), 3);
-  return text;
+std::string words_of_smooth(const json& parameters) {
+  return of_partition("Smooth the boundaries of", parameters);
 }
 
 /// New partitions from the areas that pass the interval among `faces`.
@@ -81,8 +45,6 @@ void find_again(Ground& ground, const std::vector<FaceId>& faces, const Curvatur
   }
   ground.change(labels, fresh);
 }
-
-constexpr std::int64_t most_faces = 0x7FFFFFFF;
 
 // connect_partitions: {partitions: [ids], lines: keep | remove}
 
@@ -168,116 +130,6 @@ bool connect_belongs(const json& parameters, Round round) {
          (round == Round::after_lines && parameters.at("lines") == "remove");
 }
 
-// extend_partition: {partition: id, interval: [min, max]}
-
-Result<json> resolve_extend(const Document& document, const json& given) {
-  ParameterReader reader("extend_partition", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  read_partitions(reader, document, "partition", "anchor", false);
-  const json id = reader.raw("partition");
-  const Partition* partition =
-      id.is_number_unsigned() ? document.partitions.find(id.get<std::uint32_t>()) : nullptr;
-  read_interval(reader, "interval", partition ? partition->interval : CurvatureInterval{});
-  return reader.finish();
-}
-
-Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
-  const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
-  if (!partition) return tl::unexpected<Error>(partition.error());
-  const Result<std::vector<FaceId>> faces =
-      extend_partition(ground.partition_ground(), **partition, ground.boundaries,
-                       interval_of(parameters.at("interval")));
-  if (!faces) return tl::unexpected<Error>(faces.error());
-  ground.change(labelled(*faces, (*partition)->id));
-  return outcome;
-}
-
-// remove_partitions: {partitions: [ids]}
-
-Result<json> resolve_remove(const Document& document, const json& given) {
-  ParameterReader reader("remove_partitions", given);
-  read_partitions(reader, document, "partitions", "anchors", false);
-  const json areas = reader.raw("areas");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
-  json own = json::array();
-  for (const std::uint32_t id : ids_of(reader.resolved("partitions")))
-    own.push_back(document.partitions.find(id)->area);
-  if (!areas.is_null() &&
-      (!areas.is_array() || areas.size() != own.size() ||
-       !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); })))
-    reader.fault("areas", "an area in mm² for each partition");
-  reader.set("areas", areas.is_null() ? own : areas);
-  return reader.finish();
-}
-
-Result<Outcome> remove(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
-  const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
-  FaceLabels labels;
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Result<PartitionPtr> partition =
-        find_partition(ground, ids[k], parameters.at("anchors")[k].get<Triangle>(), round, outcome);
-    if (!partition) {
-      outcome.adapted = partition.error().message;
-      continue;
-    }
-    // Under other thresholds it may have run together with what was never meant.
-    constexpr double far_larger = 2.0;
-    if (round != Round::first &&
-        (*partition)->area > far_larger * parameters.at("areas")[k].get<double>()) {
-      outcome.adapted = "Where partition " + std::to_string(ids[k]) +
-                        " was, there is one more than twice as large; it is left as it is.";
-      continue;
-    }
-    ++found;
-    const FaceLabels own = labelled(faces_of(ground.mesh, ground.partitions, **partition), 0);
-    labels.insert(labels.end(), own.begin(), own.end());
-  }
-  if (found == 0) return fail(outcome.adapted);
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  ground.change(labels);
-  return outcome;
-}
-
-// remove_small_partitions: {faces: n}
-
-Result<json> resolve_remove_small(const Document& document, const json& given) {
-  ParameterReader reader("remove_small_partitions", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  if (!reader.has("faces")) reader.fault("faces", "a number of faces");
-  reader.whole("faces", 1, 1, most_faces);
-  return reader.finish();
-}
-
-Result<Outcome> remove_small(Ground& ground, const json& parameters, Round round) {
-  const std::uint32_t least = parameters.at("faces");
-  FaceLabels labels;
-  for (const PartitionPtr& partition : ground.partitions.partitions)
-    if (partition->faces < least && !partition->locked)
-      for (const FaceId f : faces_of(ground.mesh, ground.partitions, *partition))
-        labels.emplace_back(f, 0u);
-  if (labels.empty() && round == Round::first) {
-    std::uint32_t smallest = most_faces;
-    for (const PartitionPtr& partition : ground.partitions.partitions)
-      if (!partition->locked) smallest = std::min(smallest, partition->faces);
-    return nothing_to_do(
-        "No partition that is not locked has fewer than " + std::to_string(least) + " faces" +
-        (smallest < most_faces ? "; the smallest has " + std::to_string(smallest) + "."
-                               : std::string(".")));
-  }
-  ground.change(labels);
-  return Outcome{};
-}
-
-std::string remove_small_gist(const json& parameters) {
-  return parameters.contains("faces") ? "under " + parameters["faces"].dump() + " faces" : "";
-}
-
 // restart_partitions: {partitions: [ids], interval, min_faces}: and the unassigned round them
 
 Result<json> resolve_restart(const Document& document, const json& given) {
@@ -344,10 +196,6 @@ Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
   return Outcome{};
 }
 
-std::string recompute_gist(const json& parameters) {
-  return "in a region, " + interval_gist(parameters);
-}
-
 // split_partition: {partition: id, vertices: [v, ...], angle}
 
 Result<json> resolve_split(const Document& document, const json& given) {
@@ -368,9 +216,25 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
       return f != no_id && ground.partitions.label(f) == (*partition)->id;
     });
   };
+  const Path points = path_of(parameters.at("vertices"));
+  const auto is_beside = [&](VertexId v) {
+    bool beside = v >= ground.mesh.vertex_count();
+    if (!beside)
+      ground.mesh.for_ring(v, [&](HalfEdgeId h) {
+        const FaceId f = ground.mesh.face(h);
+        beside = beside || (f != no_id && ground.partitions.label(f) == (*partition)->id);
+      });
+    return beside;
+  };
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (!is_beside(points[k]))
+      return fail((points.size() == 2 ? std::string(k == 0 ? "The first" : "The second")
+                                      : "Point " + std::to_string(k + 1)) +
+                  (points.size() == 2 ? " point" : "") +
+                  " is on another partition. Click from one boundary of partition " +
+                  std::to_string((*partition)->id) + " to another.");
   const Result<Path> path =
-      path_through(ground.mesh, ground.measures(), path_of(parameters.at("vertices")),
-                   parameters.at("angle"), is_inside);
+      path_through(ground.mesh, ground.measures(), points, parameters.at("angle"), is_inside);
   if (!path) return tl::unexpected<Error>(path.error());
   const Result<std::vector<FaceId>> part = cut_off(ground.partition_ground(), **partition, *path);
   if (!part) return tl::unexpected<Error>(part.error());
@@ -560,10 +424,10 @@ Result<Outcome> paint(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-std::string paint_gist(const json& parameters) {
-  return !parameters.contains("partition") ? ""
-         : parameters["partition"] == 0u   ? "out"
-                                           : "into " + parameters["partition"].dump();
+std::string words_of_paint(const json& parameters) {
+  if (!parameters.contains("partition")) return "Paint partitions";
+  return parameters["partition"] == 0u ? std::string("Paint out of partitions")
+                                       : of_partition("Paint into", parameters);
 }
 
 // smooth_boundaries: {partitions: [ids], all where empty; rounds}
@@ -599,10 +463,6 @@ Result<Document> apply(const Document& document, const json& parameters, const C
 }  // namespace
 
 const Treatment connect_partitions_treatment{"connect_partitions", connect_belongs, connect};
-const Treatment extend_partition_treatment{"extend_partition", after_partitions, extend};
-const Treatment remove_partitions_treatment{"remove_partitions", after_partitions, remove};
-const Treatment remove_small_partitions_treatment{"remove_small_partitions", after_partitions,
-                                                  remove_small};
 const Treatment restart_partitions_treatment{"restart_partitions", after_partitions, restart};
 const Treatment recompute_partitions_treatment{"recompute_partitions", after_partitions, recompute};
 const Treatment split_partition_treatment{"split_partition", after_partitions, split};
@@ -616,45 +476,33 @@ const OperationKind connect_partitions_operation{"connect_partitions",
                                                  1,
                                                  resolve_connect,
                                                  apply<connect_partitions_treatment>,
-                                                 partitions_gist};
-const OperationKind extend_partition_operation{
-    "extend_partition", "Extend partition", 1, resolve_extend, apply<extend_partition_treatment>,
-    interval_gist};
-const OperationKind remove_partitions_operation{
-    "remove_partitions", "Remove partitions", 1, resolve_remove, apply<remove_partitions_treatment>,
-    partitions_gist};
-const OperationKind remove_small_partitions_operation{"remove_small_partitions",
-                                                      "Remove small partitions",
-                                                      1,
-                                                      resolve_remove_small,
-                                                      apply<remove_small_partitions_treatment>,
-                                                      remove_small_gist};
+                                                 words_of_connect};
 const OperationKind restart_partitions_operation{"restart_partitions",
                                                  "Restart partitions",
                                                  1,
                                                  resolve_restart,
                                                  apply<restart_partitions_treatment>,
-                                                 interval_gist};
+                                                 words_of_restart};
 const OperationKind recompute_partitions_operation{"recompute_partitions",
                                                    "Recompute partitions",
                                                    1,
                                                    resolve_recompute,
                                                    apply<recompute_partitions_treatment>,
-                                                   recompute_gist};
+                                                   words_of_recompute};
 const OperationKind split_partition_operation{
     "split_partition", "Split partition", 1, resolve_split, apply<split_partition_treatment>,
-    partitions_gist};
+    words_of_split};
 const OperationKind split_to_four_sides_operation{"split_to_four_sides",
                                                   "Split to four sides",
                                                   1,
                                                   resolve_four_sides,
                                                   apply<split_to_four_sides_treatment>,
-                                                  partitions_gist};
+                                                  words_of_four_sides};
 const OperationKind paint_partition_operation{
     "paint_partition", "Paint partition", 1, resolve_paint, apply<paint_partition_treatment>,
-    paint_gist};
+    words_of_paint};
 const OperationKind smooth_boundaries_operation{
     "smooth_boundaries", "Smooth boundaries", 1, resolve_smooth, apply<smooth_boundaries_treatment>,
-    partitions_gist};
+    words_of_smooth};
 
 }  // namespace arris

@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_set>
 
+#include "core/base/words.h"
 #include "core/document/treatments/treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 
@@ -63,6 +64,31 @@ void Ground::change(const FaceLabels& labels, const std::vector<Partition>& fres
   partitions = std::move(edited.partitions);
 }
 
+void Ground::change_to(Ground&& tried) {
+  lines = std::move(tried.lines);
+  partitions = std::move(tried.partitions);
+  boundaries = std::move(tried.boundaries);
+  next_id = tried.next_id;
+}
+
+void Ground::part_along(const std::vector<Path>& paths) {
+  if (partitions.labels.empty()) return;
+  std::vector<EdgeId> edges;
+  for (const Path& path : paths)
+    for (const EdgeId e : edges_on(mesh, path)) edges.push_back(e);
+  FaceLabels labels;
+  std::vector<Partition> fresh;
+  for (const auto& [id, pieces] : parted_by_lines(partition_ground(), edges)) {
+    const Partition& whole = *partitions.find(id);
+    for (const std::vector<FaceId>& piece : pieces) {
+      fresh.push_back(new_partition(whole.interval));
+      fresh.back().locked = whole.locked;
+      for (const FaceId f : piece) labels.emplace_back(f, fresh.back().id);
+    }
+  }
+  if (!labels.empty()) change(labels, fresh);
+}
+
 Partition Ground::new_partition(const CurvatureInterval& interval) {
   Partition partition;
   partition.id = next_id++;
@@ -107,9 +133,11 @@ Result<Document> apply_treatment(std::string_view name, const Document& document
   result.corrections.push_back(std::make_shared<const Correction>(
       result.next_id++, Operation{std::string(name), parameters},
       done->adapted.empty() ? CorrectionState::applied : CorrectionState::adapted, done->adapted));
-  if (treatment.belongs(parameters, Round::after_lines))
-    for (std::optional<Step>* step : {&result.smooth_curvature, &result.find_partitions})
-      if (*step) (*step)->out_of_date = true;
+  if (!treatment.belongs(parameters, Round::after_lines)) return result;
+  if (result.smooth_curvature) result.smooth_curvature->out_of_date = true;
+  // Lines that parted the partitions beside them at once leave them as they are to be.
+  if (result.find_partitions && !parameters.value("part", false))
+    result.find_partitions->out_of_date = true;
   return result;
 }
 
@@ -411,6 +439,21 @@ std::vector<Path> paths_of(const nlohmann::json& json) { return json.get<std::ve
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json) {
   return json.get<std::vector<std::uint32_t>>();
 }
+
+std::string interval_in_words(const CurvatureInterval& interval) {
+  if (!std::isfinite(interval.max)) return "above " + number_text(interval.min, 3);
+  return number_text(interval.min, 3) + " to " + number_text(interval.max, 3);
+}
+
+std::string targets_in_words(const nlohmann::json& parameters, const std::string& one,
+                             const std::string& many) {
+  if (const auto id = parameters.find(one); id != parameters.end() && id->is_number_unsigned())
+    return named({id->get<std::uint32_t>()}, one, many);
+  const auto ids = parameters.find(many);
+  if (ids == parameters.end() || !is_list_of_vertices(*ids) || ids->empty()) return many;
+  return named(ids_of(*ids), one, many);
+}
+
 Region region_of(const nlohmann::json& json) {
   return {json.at("vertices").get<Path>(), json.at("radius")};
 }

@@ -32,6 +32,11 @@ struct Ground {
   PartitionGround partition_ground() const { return {mesh, values, lines, partitions}; }
   void change(const LineChanges& changes);
   void change(const FaceLabels& labels, const std::vector<Partition>& fresh = {});
+  /// What was tried out on a copy is taken over.
+  void change_to(Ground&& tried);
+  /// Partitions that sharp edges on these paths have parted fall into their pieces: what lies
+  /// beside the paths and is no longer joined to the largest piece gets an id of its own.
+  void part_along(const std::vector<std::vector<VertexId>>& paths);
   /// A new partition without faces yet; takes an id.
   Partition new_partition(const CurvatureInterval& interval);
 };
@@ -103,6 +108,13 @@ std::vector<Path> paths_of(const nlohmann::json& json);
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json);
 Region region_of(const nlohmann::json& json);
 CurvatureInterval interval_of(const nlohmann::json& json);
+
+/// "0 to 0.236", "above 0.236".
+std::string interval_in_words(const CurvatureInterval& interval);
+/// What a treatment of the elements under `one` ("line") or `many` ("lines") is of: "line 3", "24
+/// lines"; `many` alone where none is named.
+std::string targets_in_words(const nlohmann::json& parameters, const std::string& one,
+                             const std::string& many);
 
 /// The line meant: by its id at first, later by its anchor; `outcome` says where it is not the
 /// same.

@@ -47,14 +47,13 @@ Result<Document> apply_lock(const Document& document, const json& parameters, co
   return result;
 }
 
-std::string lock_gist(const json& parameters) {
-  const std::size_t lines = parameters.value("lines", json::array()).size();
-  const std::size_t partitions = parameters.value("partitions", json::array()).size();
-  const auto counted = [](std::size_t n, const std::string& what) {
-    return n == 0 ? "" : std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-  };
-  return std::string(parameters.value("locked", true) ? "" : "off, ") + counted(lines, "line") +
-         (lines > 0 && partitions > 0 ? ", " : "") + counted(partitions, "partition");
+std::string words_of_lock(const json& parameters) {
+  const bool lines = !parameters.value("lines", json::array()).empty();
+  const bool partitions = !parameters.value("partitions", json::array()).empty();
+  return std::string(parameters.value("locked", true) ? "Lock " : "Unlock ") +
+         (lines ? targets_in_words(parameters, "line", "lines") : "") +
+         (lines && partitions ? " and " : "") +
+         (partitions ? targets_in_words(parameters, "partition", "partitions") : "");
 }
 
 // lift_correction: {correction: id}: as if it had never been made
@@ -91,28 +90,38 @@ Result<Document> apply_lift(const Document& document, const json& parameters,
   return result;
 }
 
-std::string lift_gist(const json& parameters) {
-  return parameters.contains("correction") ? parameters["correction"].dump() : "";
+std::string words_of_lift(const json& parameters) {
+  return parameters.contains("correction") ? "Lift correction " + parameters["correction"].dump()
+                                           : "Lift correction";
 }
 
 }  // namespace
 
 std::span<const Treatment* const> all_treatments() {
-  static const std::array<const Treatment*, 18> treatments{
-      &delete_lines_treatment,       &extend_line_treatment,
-      &trim_line_treatment,          &split_line_treatment,
-      &merge_lines_treatment,        &draw_line_treatment,
-      &reroute_line_treatment,       &recompute_lines_treatment,
-      &connect_partitions_treatment, &extend_partition_treatment,
-      &remove_partitions_treatment,  &remove_small_partitions_treatment,
-      &restart_partitions_treatment, &recompute_partitions_treatment,
-      &split_partition_treatment,    &split_to_four_sides_treatment,
-      &paint_partition_treatment,    &smooth_boundaries_treatment};
+  static const std::array<const Treatment*, 19> treatments{&delete_lines_treatment,
+                                                           &extend_line_treatment,
+                                                           &trim_line_treatment,
+                                                           &split_line_treatment,
+                                                           &merge_lines_treatment,
+                                                           &draw_line_treatment,
+                                                           &reroute_line_treatment,
+                                                           &recompute_lines_treatment,
+                                                           &connect_partitions_treatment,
+                                                           &extend_partition_treatment,
+                                                           &remove_partitions_treatment,
+                                                           &remove_small_partitions_treatment,
+                                                           &fill_unassigned_treatment,
+                                                           &restart_partitions_treatment,
+                                                           &recompute_partitions_treatment,
+                                                           &split_partition_treatment,
+                                                           &split_to_four_sides_treatment,
+                                                           &paint_partition_treatment,
+                                                           &smooth_boundaries_treatment};
   return treatments;
 }
 
-const OperationKind lock_operation{"lock", "Lock", 1, resolve_lock, apply_lock, lock_gist};
+const OperationKind lock_operation{"lock", "Lock", 1, resolve_lock, apply_lock, words_of_lock};
 const OperationKind lift_correction_operation{"lift_correction", "Lift correction", 1,
-                                              resolve_lift,      apply_lift,        lift_gist};
+                                              resolve_lift,      apply_lift,        words_of_lift};
 
 }  // namespace arris

@@ -18,13 +18,13 @@ extern const OperationKind delete_lines_operation, extend_line_operation, trim_l
     recompute_lines_operation;
 
 extern const Treatment connect_partitions_treatment, extend_partition_treatment,
-    remove_partitions_treatment, remove_small_partitions_treatment, restart_partitions_treatment,
-    recompute_partitions_treatment, split_partition_treatment, split_to_four_sides_treatment,
-    paint_partition_treatment, smooth_boundaries_treatment;
+    remove_partitions_treatment, remove_small_partitions_treatment, fill_unassigned_treatment,
+    restart_partitions_treatment, recompute_partitions_treatment, split_partition_treatment,
+    split_to_four_sides_treatment, paint_partition_treatment, smooth_boundaries_treatment;
 extern const OperationKind connect_partitions_operation, extend_partition_operation,
-    remove_partitions_operation, remove_small_partitions_operation, restart_partitions_operation,
-    recompute_partitions_operation, split_partition_operation, split_to_four_sides_operation,
-    paint_partition_operation, smooth_boundaries_operation;
+    remove_partitions_operation, remove_small_partitions_operation, fill_unassigned_operation,
+    restart_partitions_operation, recompute_partitions_operation, split_partition_operation,
+    split_to_four_sides_operation, paint_partition_operation, smooth_boundaries_operation;
 
 // Not corrections themselves.
 extern const OperationKind lock_operation, lift_correction_operation;
