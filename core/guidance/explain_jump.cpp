@@ -71,8 +71,8 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
          "No border between regions runs here: the jump has its crest elsewhere, or is too weak to "
          "part two regions."});
     add({"Normal jump", here, options.angle, "°", here > options.angle,
-         "The mean normal hardly jumps across the edge, or does so on a slope: off the borders it "
-         "counts for nothing."});
+         "By so much the mean normal jumps here; off the borders between regions it counts for "
+         "nothing."});
     result.failed = "no border between regions runs here";
     return result;
   }

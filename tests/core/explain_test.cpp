@@ -252,7 +252,7 @@ TEST(ExplainEdge, ConcaveAndConvexAreToldApart) {
       if (document.lines.is_sharp(e)) {
         ++sharp;
         EXPECT_TRUE(contains(explain_edge(document, e).headline,
-                             document.curvatures->beta[e] > 0 ? "convex 90.0" : "concave 90.0"));
+                             document.curvatures->beta[e] > 0 ? "convex 90°" : "concave 90°"));
       }
     EXPECT_EQ(sharp, 40) << method;
   }
@@ -357,7 +357,7 @@ TEST(ExplainFace, NamesTheVertexThatFailsAndByHowMuch) {
     ASSERT_NE(failed, nullptr) << explanation.headline;
     EXPECT_NEAR(failed->value, 0.01, 5e-4);
     EXPECT_EQ(failed->threshold, 0.004);
-    EXPECT_TRUE(contains(explanation.headline, " above 0 to 0.004 1/mm²")) << explanation.headline;
+    EXPECT_TRUE(contains(explanation.headline, " over 0 to 0.004 1/mm²")) << explanation.headline;
   }
   EXPECT_EQ(outside, 48 * 12 * 2) << "the wall";
 }
