@@ -130,7 +130,7 @@ void ElementsPresenter::set_partitions_shown(bool shown_now) {
 }
 
 void ElementsPresenter::refresh() {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   const Document& document = snapshot.document;
   // A preview may come and go; the selection is that of the state that stays.
   const Document& current = session_->current().document;
@@ -244,7 +244,7 @@ void ElementsPresenter::fit_surfaces() {
 }
 
 void ElementsPresenter::show_selection() {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   Ids shown_lines = lines_;
   for (const std::uint32_t k : boundaries_) {
     const Boundary& boundary = *snapshot.boundaries[k - 1];
@@ -383,7 +383,7 @@ void ElementsPresenter::select(const Ids& lines, const Ids& partitions) {
 }
 
 void ElementsPresenter::zoom_to_selection() {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   std::vector<VertexId> vertices;
   const auto add = [&](const auto& more) {
     vertices.insert(vertices.end(), more.begin(), more.end());

@@ -14,7 +14,7 @@ namespace {
 
 QString with_unit(double value, const std::string& unit) {
   if (std::isnan(value)) return QStringLiteral("–");
-  const QString text = number_text(value);
+  const QString text = shown_number(value);
   if (unit.empty()) return text;
   return unit == "°" ? text + "°" : text + " " + QString::fromStdString(unit);
 }

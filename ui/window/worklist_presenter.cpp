@@ -34,7 +34,7 @@ QString title_of(WorkKind kind) {
 }
 
 QString choice_text(const Continuation& way) {
-  const QString length = arris::ui::number_text(way.length, 3) + " mm";
+  const QString length = shown_number(way.length, 3) + " mm";
   const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
                         : way.arrives ? QObject::tr("to the border")
                                       : QObject::tr("fading out");

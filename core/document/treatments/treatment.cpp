@@ -411,7 +411,7 @@ std::vector<Path> paths_of(const nlohmann::json& json) { return json.get<std::ve
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json) {
   return json.get<std::vector<std::uint32_t>>();
 }
-Region region_of(const nlohmann::json& json) {
+BrushedRegion region_of(const nlohmann::json& json) {
   return {json.at("vertices").get<Path>(), json.at("radius")};
 }
 CurvatureInterval interval_of(const nlohmann::json& json) {

@@ -101,7 +101,7 @@ void read_interval(ParameterReader& reader, const std::string& name,
 Path path_of(const nlohmann::json& json);
 std::vector<Path> paths_of(const nlohmann::json& json);
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json);
-Region region_of(const nlohmann::json& json);
+BrushedRegion region_of(const nlohmann::json& json);
 CurvatureInterval interval_of(const nlohmann::json& json);
 
 /// The line meant: by its id at first, later by its anchor; `outcome` says where it is not the
