@@ -17,6 +17,7 @@
 #endif
 
 #include "core/base/number_text.h"
+#include "core/base/write_file.h"
 #include "core/document/comparison.h"
 #include "core/document/document.h"
 #include "core/document/export.h"

@@ -5,9 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include <tbb/parallel_sort.h>
-
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
@@ -38,9 +37,10 @@ std::vector<Point> face_normals(const Mesh& mesh) {
     if (!flat[f]) continue;
     FaceId across = static_cast<FaceId>(f);
     for (int steps = 0; steps < 16 && across != no_id && flat[across]; ++steps) {
-      HalfEdgeId h = mesh.face_half_edge(across), longest = h;
-      for (int k = 0; k < 3; ++k, h = mesh.next(h))
-        if (mesh.edge_length(h >> 1) > mesh.edge_length(longest >> 1)) longest = h;
+      HalfEdgeId longest = mesh.face_half_edge(across);
+      for (const HalfEdgeId h : mesh.sides(across))
+        if (mesh.edge_length(Mesh::edge_of(h)) > mesh.edge_length(Mesh::edge_of(longest)))
+          longest = h;
       across = mesh.face(Mesh::opposite(longest));
     }
     if (across != no_id && !flat[across]) normals[f] = normals[across];
@@ -64,7 +64,7 @@ Star star_of(const Mesh& mesh, const std::vector<float>& beta, VertexId v) {
   const Point& p = mesh.point(v);
   mesh.for_ring(v, [&](HalfEdgeId h) {
     const Point a = mesh.point(mesh.to(h)) - p;
-    const double edge_beta = beta[h >> 1];
+    const double edge_beta = beta[Mesh::edge_of(h)];
     star.betas += edge_beta;
     star.betas_by_length += edge_beta * a.norm();
     if (mesh.face(h) == no_id) return;
@@ -199,10 +199,10 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
 
   for (VertexId v = 0; v < n; ++v)
     if (!mesh.is_isolated(v) && !mesh.is_border(v)) c.by_decreasing_ikabs.push_back(v);
-  tbb::parallel_sort(c.by_decreasing_ikabs.begin(), c.by_decreasing_ikabs.end(),
-                     [&](VertexId a, VertexId b) {
-                       return c.ikabs[a] != c.ikabs[b] ? c.ikabs[a] > c.ikabs[b] : a < b;
-                     });
+  parallel_sort(c.by_decreasing_ikabs.begin(), c.by_decreasing_ikabs.end(),
+                [&](VertexId a, VertexId b) {
+                  return c.ikabs[a] != c.ikabs[b] ? c.ikabs[a] > c.ikabs[b] : a < b;
+                });
   context.report(1.0, "curvatures");
   return CurvaturesPtr(std::move(result));
 }
@@ -228,18 +228,12 @@ double ikabs_of_straight_edge(double angle) { return 9.0 * angle * angle / (pi *
 Point mean_normal(const Mesh& mesh) {
   Point sum = Point::Zero();
   double area = 0.0;
-  for (const Triangle& t : mesh.triangles()) {
-    const Point n =
-        (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0]));
+  for (FaceId f = 0; f < mesh.face_count(); ++f) {
+    const Point n = area_normal(mesh, f);
     sum += n;
     area += n.norm();
   }
   return area > 0.0 ? Point(sum / area) : sum;
-}
-
-double corner_angle(const Point& p, const Point& a, const Point& b) {
-  const Point u = a - p, w = b - p;
-  return std::atan2(u.cross(w).norm(), u.dot(w));
 }
 
 }  // namespace arris

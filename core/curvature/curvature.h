@@ -87,8 +87,4 @@ double ikabs_of_straight_edge(double angle);
 /// from 0 (a closed surface) to 1 (a plane).
 Point mean_normal(const Mesh& mesh);
 
-/// Interior angle of the triangle p, a, b at p, in radians, by atan2 (exact to rounding at any
-/// angle; 0 for a point).
-double corner_angle(const Point& p, const Point& a, const Point& b);
-
 }  // namespace arris

@@ -1,10 +1,9 @@
 #include "core/curvature/distribution.h"
+#include "core/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <tbb/parallel_sort.h>
 
 namespace arris {
 
@@ -13,7 +12,7 @@ Distribution::Distribution(const std::vector<double>& values, const std::vector<
   pairs.reserve(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i])) pairs.emplace_back(values[i], weights[i]);
-  tbb::parallel_sort(pairs.begin(), pairs.end());
+  parallel_sort(pairs.begin(), pairs.end());
   values_.reserve(pairs.size());
   cumulative_.reserve(pairs.size());
   double sum = 0.0;

@@ -2,40 +2,57 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
-const std::array<FieldInfo, field_count>& field_table() {
-  constexpr Element vertex = Element::vertex, edge = Element::edge, face = Element::face;
-  static constexpr std::array<FieldInfo, field_count> table{{
-      {Field::k, "K", "1/mm²", "Gaussian curvature (eq. 2)", vertex, true},
-      {Field::h, "H", "1/mm", "Mean curvature (eq. 6); positive where convex", vertex, true},
-      {Field::kabs, "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder"},
-      {Field::ih, "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", vertex, true},
-      {Field::ik, "IK", "", "Invariant of the Gaussian curvature (eq. 13)", vertex, true},
-      {Field::ikabs, "IKabs", "", "Invariant of the absolute curvature (eq. 14)"},
-      {Field::ihe, "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", edge,
-       true},
-      {Field::normal_jump, "Normal jump", "°",
-       "How far the mean normal turns at once across an edge, above what the surface beside it "
-       "turns; positive where convex",
-       edge, true},
-      {Field::shape, "Shape", "", "Local form from the signs of K and H (figures 4 and 8)", vertex,
-       false, true},
-      {Field::deviation, "Deviation", "% of zone",
-       "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face},
-      {Field::face_quality, "Face quality", "",
-       "Twice the inscribed over the circumscribed radius: 1 for equilateral faces, 0 for slivers",
-       face},
-  }};
-  return table;
-}
+namespace {
 
-const FieldInfo& info_of(Field field) { return field_table()[static_cast<std::size_t>(field)]; }
+constexpr Element vertex = Element::vertex, edge = Element::edge, face = Element::face;
+constexpr FieldInfo fields[] = {
+    {Field::k, '1', "K", "1/mm²", "Gaussian curvature (eq. 2)", vertex, true},
+    {Field::h, '2', "H", "1/mm", "Mean curvature (eq. 6); positive where convex", vertex, true},
+    {Field::kabs, '3', "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder"},
+    {Field::ih, '4', "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", vertex,
+     true},
+    {Field::ik, '5', "IK", "", "Invariant of the Gaussian curvature (eq. 13)", vertex, true},
+    {Field::ikabs, '6', "IKabs", "", "Invariant of the absolute curvature (eq. 14)"},
+    {Field::ihe, '7', "IHe", "°", "Exterior angle at an edge (eq. 11); positive where convex", edge,
+     true},
+    {Field::normal_jump, 'J', "Normal jump", "°",
+     "How far the mean normal turns at once across an edge, above what the surface beside it "
+     "turns; positive where convex",
+     edge, true},
+    {Field::shape, '8', "Shape", "", "Local form from the signs of K and H (figures 4 and 8)",
+     vertex, false, true},
+    {Field::deviation, '9', "Deviation", "% of zone",
+     "How much of the error zones of the scan's vertices each face uses up (section 4.1)", face},
+    {Field::face_quality, '0', "Face quality", "",
+     "Twice the inscribed over the circumscribed radius: 1 for equilateral faces, 0 for slivers",
+     face},
+};
+
+/// One row for each field, in the order of the enumeration, each with a key of its own.
+constexpr bool is_whole() {
+  for (std::size_t k = 0; k < std::size(fields); ++k) {
+    if (static_cast<std::size_t>(fields[k].field) != k) return false;
+    for (std::size_t j = 0; j < k; ++j)
+      if (fields[j].key == fields[k].key) return false;
+  }
+  return std::size(fields) == field_count;
+}
+static_assert(is_whole());
+
+}  // namespace
+
+std::span<const FieldInfo, field_count> field_table() { return fields; }
+
+const FieldInfo& info_of(Field field) { return fields[static_cast<std::size_t>(field)]; }
 
 std::optional<Field> find_field(std::string_view name) {
   const auto same = [](char a, char b) {
@@ -95,12 +112,8 @@ std::vector<double> field_values(const Curvatures& c, Field field) {
 
 std::vector<double> field_weights(const Mesh& mesh, Field field) {
   std::vector<double> areas(mesh.face_count());
-  parallel_for(mesh.face_count(), [&](std::size_t f) {
-    const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
-    areas[f] =
-        (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm() /
-        2.0;
-  });
+  parallel_for(areas.size(),
+               [&](std::size_t f) { areas[f] = face_area(mesh, static_cast<FaceId>(f)); });
   const Element element = info_of(field).element;
   if (element == Element::face) return areas;
   const bool on_edges = element == Element::edge;

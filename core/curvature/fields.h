@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,13 +15,14 @@ namespace arris {
 
 /// The fields that can be shown and read under the pointer.
 enum class Field { k, h, kabs, ih, ik, ikabs, ihe, normal_jump, shape, deviation, face_quality };
-inline constexpr std::size_t field_count = 11;
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::face_quality) + 1;
 
 /// What a field has one value for.
 enum class Element { vertex, edge, face };
 
 struct FieldInfo {
   Field field;
+  char key;                  ///< With Alt, shows it in the window.
   std::string_view name;     ///< As in files and on the command line: "Kabs".
   std::string_view unit;     ///< "1/mm²", "°", or empty.
   std::string_view meaning;  ///< One sentence.
@@ -30,7 +32,7 @@ struct FieldInfo {
 };
 
 /// All fields in the order of the enumeration.
-const std::array<FieldInfo, field_count>& field_table();
+std::span<const FieldInfo, field_count> field_table();
 const FieldInfo& info_of(Field field);
 /// By name, upper or lower case.
 std::optional<Field> find_field(std::string_view name);

@@ -5,7 +5,8 @@
 #include <unordered_set>
 
 #include "core/base/parallel.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 

@@ -6,7 +6,8 @@
 
 #include "core/base/hash.h"
 #include "core/base/parallel.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 

@@ -50,9 +50,15 @@ Result<void> History::travel(std::uint32_t sequence, const Context& context) {
   if (sequence == head_) return {};
   Result<Document> document = document_at(sequence, context);
   if (!document) return tl::unexpected<Error>(document.error());
+  return go_to(sequence, std::move(*document));
+}
+
+Result<void> History::go_to(std::uint32_t sequence, Document document) {
+  if (sequence > entries_.size()) return no_row(sequence);
+  if (sequence == head_) return {};
   if (journal_)
     if (const auto written = journal_->append_head(sequence); !written) return written;
-  go(sequence, std::move(*document));
+  go(sequence, std::move(document));
   return {};
 }
 

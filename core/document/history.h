@@ -51,11 +51,15 @@ class History {
   /// Goes to a row's state (0: the empty document). Errors: no such row; the snapshot had been
   /// dropped and its replay failed.
   Result<void> travel(std::uint32_t sequence, const Context& context = {});
+  /// The last part of travel(), which takes no time: `document` is document_at(sequence). A window
+  /// lets a worker thread make the document and moves the head itself. Errors: no such row, the
+  /// journal cannot be written; nothing changed then.
+  Result<void> go_to(std::uint32_t sequence, Document document);
   Result<void> undo(const Context& context = {});
   Result<void> redo(const Context& context = {});
 
   /// The document as it was after a row (0: the empty one), without going there. Errors as
-  /// travel().
+  /// travel(). May run on another thread as long as nothing changes the history.
   Result<Document> document_at(std::uint32_t sequence, const Context& context = {}) const;
 
   /// Names given to rows: versions to come back to and to compare, wherever the head is.

@@ -1,5 +1,7 @@
 #include "core/edge_swapping/swap_edges.h"
 
+#include "core/mesh/geometry.h"
+
 namespace arris {
 
 namespace {
@@ -35,14 +37,11 @@ Result<Prepared> swap_edges(const Mesh& mesh, const ErrorZonesPtr& zones,
 }
 
 double total_bending(const Mesh& mesh) {
-  const auto normal = [&](FaceId f) {
-    const Triangle& t = mesh.triangle(f);
-    return unit_normal(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
-  };
   double sum = 0.0;
   for (EdgeId e = 0; e < mesh.edge_count(); ++e)
     if (!mesh.is_border_edge(e))
-      sum += angle_between(normal(mesh.edge_faces(e)[0]), normal(mesh.edge_faces(e)[1]));
+      sum += angle_between(unit_normal(mesh, mesh.edge_faces(e)[0]),
+                           unit_normal(mesh, mesh.edge_faces(e)[1]));
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "core/document/operations/chain.h"
 #include "core/document/treatments/treatment.h"
 #include "core/guidance/explain_jump.h"
+#include "core/partitions/front_rule.h"
 #include "core/sharp_lines/automatic_treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 
@@ -216,6 +217,7 @@ class FaceRules {
         mesh_(*document.mesh),
         criterion_(parameters.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs),
         values_(values_of(*document.shown_curvatures(), criterion_)),
+        rule_(mesh_, values_, document.lines),
         min_faces_(parameters.at("min_faces")),
         fill_holes_(parameters.at("fill_holes")) {
     for (const auto& interval : parameters.at("intervals"))
@@ -234,49 +236,12 @@ class FaceRules {
     return short_text(value) + (criterion_ == Criterion::kabs ? " 1/mm²" : "");
   }
 
-  bool on_line(VertexId v) const {
-    bool found = false;
-    mesh_.for_ring(v, [&](HalfEdgeId h) { found |= document_.lines.is_sharp(h >> 1); });
-    return found;
-  }
-  bool is_regular(VertexId v) const {
-    return !mesh_.is_isolated(v) && !mesh_.is_border(v) && !std::isnan(values_[v]) && !on_line(v);
-  }
-  int votes(FaceId f) const {
-    const Triangle& t = mesh_.triangle(f);
-    return is_regular(t[0]) + is_regular(t[1]) + is_regular(t[2]);
-  }
-  static bool holds(const CurvatureInterval& interval, double value) {
-    return value >= interval.min && value <= interval.max;
-  }
-  bool passes(FaceId f, const CurvatureInterval& interval) const {
-    bool any = false;
-    for (const VertexId v : mesh_.triangle(f)) {
-      if (!is_regular(v)) continue;
-      if (!holds(interval, values_[v])) return false;
-      any = true;
-    }
-    return any;
-  }
-  /// The face across the longest edge that is not sharp; no_id: there is none.
-  FaceId across_longest(FaceId f) const {
-    FaceId across = no_id;
-    double longest = -1.0;
-    HalfEdgeId h = mesh_.face_half_edge(f);
-    for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
-      if (document_.lines.is_sharp(h >> 1) || mesh_.is_border_edge(h >> 1)) continue;
-      const double length = mesh_.edge_length(h >> 1);
-      if (length > longest) {
-        longest = length;
-        across = mesh_.face(Mesh::opposite(h));
-      }
-    }
-    return across;
-  }
+  bool on_line(VertexId v) const { return is_on_line(mesh_, document_.lines, v); }
+  const FrontRule& front() const { return rule_; }
   /// The interval whose front could have taken f: the first in which all its votes lie.
   const CurvatureInterval* passed_interval(FaceId f) const {
     for (const CurvatureInterval& interval : intervals_)
-      if (passes(f, interval)) return &interval;
+      if (rule_.passes(f, interval)) return &interval;
     return nullptr;
   }
   /// The interval that fails fewest of the votes of f (tie: the first).
@@ -286,7 +251,7 @@ class FaceRules {
     for (const CurvatureInterval& interval : intervals_) {
       int failed = 0;
       for (const VertexId v : mesh_.triangle(f))
-        failed += is_regular(v) && !holds(interval, values_[v]);
+        failed += rule_.is_regular(v) && !interval.holds(values_[v]);
       if (failed < fewest) {
         fewest = failed;
         best = &interval;
@@ -297,24 +262,23 @@ class FaceRules {
   /// True where each vote of f lies in an interval, whichever.
   bool each_vote_held(FaceId f) const {
     return std::ranges::all_of(mesh_.triangle(f), [&](VertexId v) {
-      return !is_regular(v) || std::ranges::any_of(intervals_, [&](const CurvatureInterval& i) {
-        return holds(i, values_[v]);
-      });
+      return !rule_.is_regular(v) ||
+             std::ranges::any_of(intervals_,
+                                 [&](const CurvatureInterval& i) { return i.holds(values_[v]); });
     });
   }
   /// Faces that a front from f covers under `interval`, counted up to `limit`; those that the front
   /// of another interval took do not count.
   std::uint32_t front_size(FaceId f, const CurvatureInterval& interval, std::uint32_t limit) const {
     const auto open = [&](FaceId x) {
-      if (!passes(x, interval)) return false;
+      if (!rule_.passes(x, interval)) return false;
       const Partition* taken = document_.partitions.find(document_.partitions.label(x));
-      return !taken || taken->interval == interval || !passes(x, taken->interval);
+      return !taken || taken->interval == interval || !rule_.passes(x, taken->interval);
     };
     std::vector<FaceId> front{f};
     std::unordered_set<FaceId> seen{f};
     for (std::size_t next = 0; next < front.size() && front.size() < limit; ++next) {
-      HalfEdgeId h = mesh_.face_half_edge(front[next]);
-      for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+      for (const HalfEdgeId h : mesh_.sides(front[next])) {
         const FaceId x = mesh_.face(Mesh::opposite(h));
         if (x != no_id && !document_.lines.is_sharp(h >> 1) && !seen.contains(x) && open(x)) {
           seen.insert(x);
@@ -330,6 +294,7 @@ class FaceRules {
   const Mesh& mesh_;
   Criterion criterion_;
   const std::vector<double>& values_;
+  FrontRule rule_;
   std::uint32_t min_faces_, fill_holes_;
   std::vector<CurvatureInterval> intervals_;
 };
@@ -350,7 +315,7 @@ ExplainedTest vertex_test(const Mesh& mesh, const FaceRules& rules, VertexId v,
                           const CurvatureInterval* interval) {
   ExplainedTest test{rules.name() + " of " + vertex_text(v), none, none, rules.unit(), true, ""};
   const std::string where = "Vertex " + std::to_string(v);
-  if (!rules.is_regular(v)) {
+  if (!rules.front().is_regular(v)) {
     test.sentence = where +
                     (mesh.is_border(v)  ? " lies on the border"
                      : rules.on_line(v) ? " lies on a sharp line"
@@ -366,7 +331,7 @@ ExplainedTest vertex_test(const Mesh& mesh, const FaceRules& rules, VertexId v,
     return test;
   }
   test.threshold = bound_for(*interval, test.value);
-  test.passed = FaceRules::holds(*interval, test.value);
+  test.passed = interval->holds(test.value);
   const std::string range = interval_text(rules, *interval);
   if (test.passed)
     test.sentence = measured + ", inside " + range + ".";
@@ -498,8 +463,7 @@ Explanation explain_face(const Document& document, FaceId f) {
   }
   const Partition* partition = document.partitions.find(label);
   if (document.partition_method() == PartitionMethod::surfaces) {
-    HalfEdgeId side = mesh.face_half_edge(f);
-    for (int k = 0; k < 3; ++k, side = mesh.next(side))
+    for (const HalfEdgeId side : mesh.sides(f))
       result.tests.push_back(side_test(document, side, label));
     const std::string detail = short_text(step->parameters.value("detail", 1.0));
     const std::string old = step->out_of_date ? ", from before an earlier step changed" : "";
@@ -510,13 +474,13 @@ Explanation explain_face(const Document& document, FaceId f) {
     return result;
   }
   const FaceRules rules(document, step->parameters);
-  const CurvatureInterval* passed = partition && rules.passes(f, partition->interval)
+  const CurvatureInterval* passed = partition && rules.front().passes(f, partition->interval)
                                         ? &partition->interval
                                         : rules.passed_interval(f);
   const CurvatureInterval* held = passed      ? passed
                                   : partition ? &partition->interval
                                               : rules.nearest_interval(f);
-  const int votes = rules.votes(f);
+  const int votes = rules.front().votes(f);
   result.tests.push_back(
       {"Regular vertices", static_cast<double>(votes), 1.0, "", votes > 0,
        votes > 0 ? std::to_string(votes) + " of its vertices lie inside, off lines and border, and "
@@ -546,9 +510,7 @@ Explanation explain_face(const Document& document, FaceId f) {
                       ", fewer than the " + std::to_string(rules.min_faces()) +
                       " that make a partition."});
   }
-  HalfEdgeId h = mesh.face_half_edge(f);
-  for (int k = 0; k < 3; ++k, h = mesh.next(h))
-    result.tests.push_back(side_test(document, h, label));
+  for (const HalfEdgeId h : mesh.sides(f)) result.tests.push_back(side_test(document, h, label));
 
   const std::string dated = step->out_of_date ? ", from before an earlier step changed." : ".";
   if (result.holds) {
@@ -556,10 +518,10 @@ Explanation explain_face(const Document& document, FaceId f) {
       result.headline = in + "; " + rules.name() + " lies in the interval " +
                         interval_text(rules, *passed) + dated;
     else if (const auto anchor = partition ? mesh.find_face(partition->anchor) : std::nullopt;
-             votes == 0 && anchor && rules.votes(*anchor) == 0)
+             votes == 0 && anchor && rules.front().votes(*anchor) == 0)
       result.headline =
           in + ", an area between lines without a vertex inside, judged as a whole" + dated;
-    else if (const FaceId across = rules.across_longest(f);
+    else if (const FaceId across = rules.front().across_longest(f);
              votes == 0 && across != no_id && document.partitions.label(across) == label)
       result.headline = in + ", joined without a vote across its longest side" + dated;
     else if (rules.fill_holes() > 0)

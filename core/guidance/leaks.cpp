@@ -12,6 +12,7 @@
 #include "core/base/parallel.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/border_kink.h"
 #include "core/partitions/smallest_areas.h"
 #include "core/sharp_lines/normal_noise.h"
@@ -66,9 +67,9 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Part
     search.run(
         end.vertex, reach,
         [&](HalfEdgeId h) {
-          return !lines.is_sharp(h >> 1) && !mesh.is_border_edge(h >> 1) &&
+          return !lines.is_sharp(Mesh::edge_of(h)) && !mesh.is_border_edge(Mesh::edge_of(h)) &&
                          (in_partition(h) || in_partition(Mesh::opposite(h)))
-                     ? mesh.edge_length(h >> 1)
+                     ? mesh.edge_length(Mesh::edge_of(h))
                      : infinite;
         },
         [&](VertexId v) {
@@ -82,7 +83,7 @@ std::vector<Gap> gaps_from(const Mesh& mesh, const SharpLines& lines, const Part
           Gap gap{label, length, {end.vertex}, {}};
           for (const HalfEdgeId h : search.path_to(v)) {
             gap.vertices.push_back(mesh.to(h));
-            gap.edges.push_back(h >> 1);
+            gap.edges.push_back(Mesh::edge_of(h));
           }
           gaps.push_back(std::move(gap));
           return arrived.size() < most_ways ? Visit::do_not_pass : Visit::finish;
@@ -301,7 +302,7 @@ Result<std::vector<Leak>> find_leaks(const Mesh& mesh, const SharpLines& lines,
       for (int corner = 0; corner < 3; ++corner, h = mesh.next(h)) {
         const FaceId other = mesh.face(Mesh::opposite(h));
         if (other == no_id || region_of[other] != no_id || partitions.label(other) != label ||
-            lines.is_sharp(h >> 1) || parts.is_gap(h >> 1))
+            lines.is_sharp(Mesh::edge_of(h)) || parts.is_gap(Mesh::edge_of(h)))
           continue;
         region_of[other] = number;
         front.push_back(other);

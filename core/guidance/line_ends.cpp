@@ -19,7 +19,7 @@ LineEnds::LineEnds(const Mesh& mesh, const SharpLines& lines) : mesh_(mesh), lin
          {std::pair{path.front(), path[back]}, std::pair{path.back(), path[last - back]}}) {
       if (mesh.is_border(end)) continue;
       int sharp = 0;
-      mesh.for_ring(end, [&](HalfEdgeId h) { sharp += lines.is_sharp(h >> 1); });
+      mesh.for_ring(end, [&](HalfEdgeId h) { sharp += lines.is_sharp(Mesh::edge_of(h)); });
       if (sharp == 1)
         loose_.push_back({end, line->id, (mesh.point(end) - mesh.point(inner)).normalized(),
                           line->convex(), line->length});
@@ -48,8 +48,8 @@ std::unordered_map<VertexId, double> LineEnds::along_lines(const LooseEnd& end,
   search.run(
       end.vertex, reach,
       [&](HalfEdgeId h) {
-        return lines_.is_sharp(h >> 1) ? mesh_.edge_length(h >> 1)
-                                       : std::numeric_limits<double>::infinity();
+        return lines_.is_sharp(Mesh::edge_of(h)) ? mesh_.edge_length(Mesh::edge_of(h))
+                                                 : std::numeric_limits<double>::infinity();
       },
       [&](VertexId v) {
         result[v] = search.length_to(v);

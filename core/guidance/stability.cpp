@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include <tbb/parallel_sort.h>
-
 #include "core/base/parallel.h"
 #include "core/curvature/distribution.h"
+#include "core/mesh/geometry.h"
+#include "core/partitions/front_rule.h"
 
 namespace arris {
 
@@ -79,21 +79,6 @@ class Growing {
   double covered_ = 0.0;
 };
 
-FaceId across_longest(const Mesh& mesh, const SharpLines& lines, FaceId f) {
-  FaceId across = no_id;
-  double longest = -1.0;
-  HalfEdgeId h = mesh.face_half_edge(f);
-  for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
-    if (lines.is_sharp(h >> 1) || mesh.is_border_edge(h >> 1)) continue;
-    const double length = mesh.edge_length(h >> 1);
-    if (length > longest) {
-      longest = length;
-      across = mesh.face(Mesh::opposite(h));
-    }
-  }
-  return across;
-}
-
 }  // namespace
 
 Result<StabilityCurve> line_stability(const Mesh& mesh, const Curvatures& curvatures,
@@ -142,23 +127,16 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
   constexpr double infinite = std::numeric_limits<double>::infinity();
   context.report(0.0, "stability of partitions");
   const double least = options.intervals.empty() ? 0.0 : options.intervals.front().min;
-  std::vector<std::uint8_t> regular(mesh.vertex_count(), 0);
-  parallel_for(mesh.vertex_count(), [&](std::size_t i) {
-    const VertexId v = static_cast<VertexId>(i);
-    if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return;
-    bool on_line = false;
-    mesh.for_ring(v, [&](HalfEdgeId h) { on_line |= lines.is_sharp(h >> 1); });
-    regular[v] = !on_line;
-  });
+  FrontRule rule(mesh, values, lines);
+  rule.count_all_votes();
   std::vector<double> area(mesh.face_count()), key(mesh.face_count(), infinite);
-  std::vector<std::uint8_t> votes(mesh.face_count(), 0);
+  std::vector<std::uint8_t> votes = rule.all_votes();  // and, below, those of bare areas
   parallel_for(mesh.face_count(), [&](std::size_t i) {
     const FaceId f = static_cast<FaceId>(i);
     area[f] = face_area(mesh, f);
     double lowest = infinite, highest = -infinite;
     for (const VertexId v : mesh.triangle(f)) {
-      if (!regular[v]) continue;
-      votes[f] = 1;
+      if (!rule.is_regular(v)) continue;
       lowest = std::min(lowest, values[v]);
       highest = std::max(highest, values[v]);
     }
@@ -178,7 +156,7 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
     std::vector<double> weights(mesh.vertex_count(), 0.0);
     for (FaceId f = 0; f < mesh.face_count(); ++f)
       for (const VertexId v : mesh.triangle(f))
-        if (regular[v]) weights[v] += area[f] / 3.0;
+        if (rule.is_regular(v)) weights[v] += area[f] / 3.0;
     const Distribution distribution(values, weights);
     // Below this all is flat (as default_intervals() sees it): a radius of ten times the part.
     const double flat = options.criterion == Criterion::kabs
@@ -205,7 +183,7 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
     if (votes[f]) continue;
     chain.clear();
     FaceId end = f;
-    for (; end != no_id && !followed[end]; end = across_longest(mesh, lines, end)) {
+    for (; end != no_id && !followed[end]; end = rule.across_longest(end)) {
       followed[end] = 1;
       chain.push_back(end);
     }
@@ -216,9 +194,8 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
   std::vector<FaceId> order;
   for (FaceId f = 0; f < mesh.face_count(); ++f)
     if (key[f] < infinite) order.push_back(f);
-  tbb::parallel_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) {
-    return key[a] != key[b] ? key[a] < key[b] : a < b;
-  });
+  parallel_sort(order.begin(), order.end(),
+                [&](FaceId a, FaceId b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
   StabilityCurve curve;
   curve.logarithmic = true;
   curve.trivial = 0.05;
@@ -230,10 +207,10 @@ Result<StabilityCurve> partition_stability(const Mesh& mesh, const std::vector<d
     for (; next < order.size() && key[order[next]] <= threshold; ++next) {
       const FaceId f = order[next];
       groups.add(f, carried[f]);
-      HalfEdgeId h = mesh.face_half_edge(f);
-      for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      for (const HalfEdgeId h : mesh.sides(f)) {
         const FaceId other = mesh.face(Mesh::opposite(h));
-        if (other != no_id && groups.has(other) && !lines.is_sharp(h >> 1)) groups.join(f, other);
+        if (other != no_id && groups.has(other) && !lines.is_sharp(Mesh::edge_of(h)))
+          groups.join(f, other);
       }
     }
     curve.points.push_back(

@@ -14,6 +14,7 @@
 #include "core/guidance/leaks.h"
 #include "core/guidance/line_ends.h"
 #include "core/guidance/path_search.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/four_sided_cuts.h"
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
 
 namespace arris {
 

@@ -625,8 +625,7 @@ class Builder {
         part +=
             (mesh.point(a) - centre).dot((mesh.point(b) - centre).cross(mesh.point(c) - centre)) /
             6.0;
-        HalfEdgeId h = mesh.face_half_edge(queue[at]);
-        for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+        for (const HalfEdgeId h : mesh.sides(queue[at])) {
           const FaceId neighbour = mesh.face(Mesh::opposite(h));
           if (neighbour == no_id) {
             closed = false;

@@ -61,9 +61,9 @@ std::vector<Chain> link_chains(const Mesh& mesh, const std::vector<EdgeId>& edge
     HalfEdgeId found = no_id;
     int count = 0;
     mesh.for_ring(mesh.to(h), [&](HalfEdgeId out) {
-      if (!in_set(out >> 1)) return;
+      if (!in_set(Mesh::edge_of(out))) return;
       ++count;
-      if ((out >> 1) != (h >> 1)) found = out;
+      if (Mesh::edge_of(out) != Mesh::edge_of(h)) found = out;
     });
     return count == 2 && continues(h, found) ? found : no_id;
   };
@@ -74,16 +74,17 @@ std::vector<Chain> link_chains(const Mesh& mesh, const std::vector<EdgeId>& edge
     if (linked.has(e)) continue;
     Chain chain;
     HalfEdgeId h = 2 * e;
-    while (h != no_id && !linked.has(h >> 1)) {
-      linked.mark(h >> 1);
+    while (h != no_id && !linked.has(Mesh::edge_of(h))) {
+      linked.mark(Mesh::edge_of(h));
       chain.half_edges.push_back(h);
       h = successor(h);
     }
-    chain.closed = h != no_id && (h >> 1) == e;
+    chain.closed = h != no_id && (Mesh::edge_of(h)) == e;
     if (!chain.closed) {
       const std::size_t ahead = chain.half_edges.size();
-      for (h = successor(2 * e + 1); h != no_id && !linked.has(h >> 1); h = successor(h)) {
-        linked.mark(h >> 1);
+      for (h = successor(2 * e + 1); h != no_id && !linked.has(Mesh::edge_of(h));
+           h = successor(h)) {
+        linked.mark(Mesh::edge_of(h));
         chain.half_edges.push_back(Mesh::opposite(h));
       }
       const auto middle = chain.half_edges.begin() + static_cast<std::ptrdiff_t>(ahead);

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
@@ -43,9 +44,9 @@ double share_of_angles_above(const Mesh& mesh, double degrees) {
   parallel_for(counts.size(), [&](std::size_t f) {
     const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
     for (std::size_t k = 0; k < 3; ++k) {
-      const Point u = mesh.point(t[(k + 1) % 3]) - mesh.point(t[k]);
-      const Point v = mesh.point(t[(k + 2) % 3]) - mesh.point(t[k]);
-      if (std::atan2(u.cross(v).norm(), u.dot(v)) > limit) ++counts[f];
+      if (corner_angle(mesh.point(t[k]), mesh.point(t[(k + 1) % 3]), mesh.point(t[(k + 2) % 3])) >
+          limit)
+        ++counts[f];
     }
   });
   if (counts.empty()) return 0.0;

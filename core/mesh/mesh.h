@@ -72,8 +72,9 @@ class Mesh {
   const std::vector<EdgeVertices>& edges() const { return edges_; }
   const EdgeVertices& edge(EdgeId e) const { return edges_[e]; }
 
-  VertexId to(HalfEdgeId h) const { return edges_[h >> 1][(h & 1) ? 0 : 1]; }
-  VertexId from(HalfEdgeId h) const { return edges_[h >> 1][(h & 1) ? 1 : 0]; }
+  static EdgeId edge_of(HalfEdgeId h) { return h >> 1; }
+  VertexId to(HalfEdgeId h) const { return edges_[edge_of(h)][(h & 1) ? 0 : 1]; }
+  VertexId from(HalfEdgeId h) const { return edges_[edge_of(h)][(h & 1) ? 1 : 0]; }
   static HalfEdgeId opposite(HalfEdgeId h) { return h ^ 1u; }
   HalfEdgeId next(HalfEdgeId h) const {
     return id(half_edges_.next_halfedge_handle(OpenMesh::HalfedgeHandle(static_cast<int>(h))));
@@ -113,6 +114,12 @@ class Mesh {
       visit(h);
       h = next(opposite(h));
     } while (h != first);
+  }
+
+  /// The three half-edges of face f, from its first corner on.
+  std::array<HalfEdgeId, 3> sides(FaceId f) const {
+    const HalfEdgeId first = face_half_edge(f), second = next(first);
+    return {first, second, next(second)};
   }
 
   /// The edge between two vertices, if the mesh has it; either order.

@@ -144,7 +144,7 @@ Result<Header> read_header(const FileBytes& file) {
       } else if (name == "binary_big_endian") {
         header.encoding = Encoding::big_endian;
       } else {
-        return wrong("unknown PLY format " + quoted(name) + ".");
+        return wrong("unknown PLY format " + arris::quoted(name) + ".");
       }
       has_format = true;
     } else if (keyword == "element") {
@@ -153,10 +153,10 @@ Result<Header> read_header(const FileBytes& file) {
       const std::string_view count = words.word();
       const std::optional<std::int64_t> value = parse_integer(count);
       if (!value || *value < 0)
-        return wrong("expected how many elements " + quoted(element.name) + " there are, found " +
-                     quoted(count) + ".");
+        return wrong("expected how many elements " + arris::quoted(element.name) +
+                     " there are, found " + arris::quoted(count) + ".");
       if (header.find(element.name))
-        return wrong("the element " + quoted(element.name) + " is declared twice.");
+        return wrong("the element " + arris::quoted(element.name) + " is declared twice.");
       element.count = static_cast<std::uint64_t>(*value);
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
@@ -167,16 +167,16 @@ Result<Header> read_header(const FileBytes& file) {
         type = words.word();
         property.count = find_scalar(type);
         if (!property.count || !property.count->whole)
-          return wrong(quoted(type) + " is no type for the length of a list.");
+          return wrong(arris::quoted(type) + " is no type for the length of a list.");
         type = words.word();
       }
       property.scalar = find_scalar(type);
-      if (!property.scalar) return wrong("unknown property type " + quoted(type) + ".");
+      if (!property.scalar) return wrong("unknown property type " + arris::quoted(type) + ".");
       property.name = words.word();
       if (property.name.empty()) return wrong("the property has no name.");
       header.elements.back().properties.push_back(std::move(property));
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-      return wrong("unknown word " + quoted(keyword) + " in the header.");
+      return wrong("unknown word " + arris::quoted(keyword) + " in the header.");
     }
   }
   return fail(file.path + " is truncated: its header has no line \"end_header\".");

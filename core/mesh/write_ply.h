@@ -16,17 +16,6 @@ struct VertexProperty {
   const std::vector<double>* values;
 };
 
-/// Writes `text` to `path` so that the file is replaced only by a whole new one (written beside it,
-/// then renamed). Errors: cannot create, write or rename, with the path and the system's reason.
-Result<void> write_file_whole(const std::string& path, const std::string& content);
-
-/// Whether write_file_whole() could write to `path` now: to be asked before long work whose result
-/// goes there. Errors: its own. Leaves nothing behind.
-Result<void> check_writable(const std::string& path);
-/// The same for a folder that may have to be made first. Errors: the folder, or one above it, is a
-/// file; nothing can be made there.
-Result<void> check_folder_writable(const std::string& folder);
-
 /// Binary little-endian PLY of a mesh with vertex properties. Coordinates are written as float
 /// where every one of them is a float, else as double.
 Result<void> write_ply(const std::string& path, const Mesh& mesh,

@@ -6,8 +6,6 @@
 #include <map>
 #include <utility>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/watershed.h"
 
@@ -41,7 +39,7 @@ struct Windows {
 Windows windows_about(const FaceTable& table, const std::vector<FaceId>& faces, float spread) {
   Windows windows;
   windows.of.resize(faces.size());
-  tbb::enumerable_thread_specific<FaceWindow> locals([&] { return FaceWindow(table); });
+  PerThread<FaceWindow> locals([&] { return FaceWindow(table); });
   const float falling = 0.5F / (spread * spread);
   parallel_for(
       faces.size(),

@@ -9,9 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include <tbb/parallel_sort.h>
-
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/surface_noise.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -52,7 +51,7 @@ FaceRegions pieces_of(const FaceTable& table, const FaceRegions& areas, const Fa
   for (FaceId f = 0; f < table.size(); ++f)
     pairs[f] = static_cast<std::uint64_t>(areas.of_face[f]) << 32 | old.of_face[f];
   std::vector<std::uint64_t> known(pairs);
-  tbb::parallel_sort(known.begin(), known.end());
+  parallel_sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<std::uint32_t> label(table.size());
   parallel_for(label.size(), [&](std::size_t f) {
@@ -183,7 +182,7 @@ void measure_pieces(const Mesh& mesh, const FaceTable& table, const std::vector<
       if (const FaceId g = table.neighbours[f][k]; g != no_id && tree.of_face[f] != tree.of_face[g])
         sides.push_back({tree.of_face[f], tree.of_face[g], table.sides[f][k]});
   }
-  tbb::parallel_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+  parallel_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     return std::tie(x.a, x.b, x.edge) < std::tie(y.a, y.b, y.edge);
   });
   for (const Side& side : sides) {

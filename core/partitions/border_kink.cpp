@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/enumerable_thread_specific.h>
 #include <Eigen/Cholesky>
 
 #include "core/base/parallel.h"
@@ -142,7 +141,7 @@ BorderPlaces measure_borders(const Mesh& mesh, const FaceTable& table,
         return labels[mesh.face(h)] == labels[mesh.face(next)] &&
                labels[mesh.face(Mesh::opposite(h))] == labels[mesh.face(Mesh::opposite(next))];
       });
-  tbb::enumerable_thread_specific<FaceWindow> windows([&] { return FaceWindow(table); });
+  PerThread<FaceWindow> windows([&] { return FaceWindow(table); });
   parallel_for(
       chains.size(),
       [&](std::size_t c) {

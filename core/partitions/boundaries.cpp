@@ -32,10 +32,10 @@ class Typing {
   }
   Sides sides_of(HalfEdgeId h) const {
     const std::uint32_t left = label_of(h), right = label_of(Mesh::opposite(h));
-    const BoundaryType type = division_.lines.is_sharp(h >> 1) ? BoundaryType::c0
-                              : mesh_.is_border_edge(h >> 1)   ? BoundaryType::border
-                              : left != 0 && right != 0        ? BoundaryType::gn
-                                                               : BoundaryType::undefined;
+    const BoundaryType type = division_.lines.is_sharp(Mesh::edge_of(h)) ? BoundaryType::c0
+                              : mesh_.is_border_edge(Mesh::edge_of(h))   ? BoundaryType::border
+                              : left != 0 && right != 0                  ? BoundaryType::gn
+                                                                         : BoundaryType::undefined;
     return {type, left, right};
   }
   /// Chains through `edges` (ascending, all of them boundaries).
@@ -71,10 +71,10 @@ Boundary make_boundary(const Mesh& mesh, const Curvatures& curvatures, const Typ
     boundary.line = line_of.at(pair_key(boundary.vertices[0], boundary.vertices[1]));
   double turn = 0.0;
   for (const HalfEdgeId h : chain.half_edges) {
-    const double length = mesh.edge_length(h >> 1);
+    const double length = mesh.edge_length(Mesh::edge_of(h));
     boundary.length += length;
-    turn += length * curvatures.beta[h >> 1];
-    boundary.lowest_edge = std::min(boundary.lowest_edge, h >> 1);
+    turn += length * curvatures.beta[Mesh::edge_of(h)];
+    boundary.lowest_edge = std::min(boundary.lowest_edge, Mesh::edge_of(h));
   }
   if (boundary.length > 0.0)
     boundary.mean_angle = turn / boundary.length * 180.0 / std::numbers::pi;
@@ -146,8 +146,8 @@ Boundaries update_boundaries(const Mesh& mesh, const Curvatures& curvatures,
   std::vector<EdgeId> old_edges, new_edges;
   for (const VertexId v : vertices)
     mesh.for_ring(v, [&](HalfEdgeId h) {
-      if (old_typing.is_boundary(h >> 1)) old_edges.push_back(h >> 1);
-      if (new_typing.is_boundary(h >> 1)) new_edges.push_back(h >> 1);
+      if (old_typing.is_boundary(Mesh::edge_of(h))) old_edges.push_back(Mesh::edge_of(h));
+      if (new_typing.is_boundary(Mesh::edge_of(h))) new_edges.push_back(Mesh::edge_of(h));
     });
   for (std::vector<EdgeId>* edges : {&old_edges, &new_edges}) {
     std::sort(edges->begin(), edges->end());
@@ -155,7 +155,7 @@ Boundaries update_boundaries(const Mesh& mesh, const Curvatures& curvatures,
   }
   const auto lowest = [](const Chain& chain) {
     EdgeId least = no_id;
-    for (const HalfEdgeId h : chain.half_edges) least = std::min(least, h >> 1);
+    for (const HalfEdgeId h : chain.half_edges) least = std::min(least, Mesh::edge_of(h));
     return least;
   };
   std::unordered_set<EdgeId> gone;  // by lowest edge
@@ -182,7 +182,7 @@ Boundaries update_boundaries(const Mesh& mesh, const Curvatures& curvatures,
   for (const Chain& chain : chains) {
     const HalfEdgeId h = chain.half_edges.front();
     const std::uint64_t key = pair_key(mesh.from(h), mesh.to(h));
-    if (after.lines.is_sharp(h >> 1) && !line_of.contains(key)) missing.insert(key);
+    if (after.lines.is_sharp(Mesh::edge_of(h)) && !line_of.contains(key)) missing.insert(key);
   }
   if (!missing.empty()) {
     std::vector<EdgeId> edges;

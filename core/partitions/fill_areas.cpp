@@ -18,6 +18,7 @@ struct Area {
 
 std::vector<Area> areas_of(const PartitionGround& ground, const std::vector<FaceId>& faces) {
   const Mesh& mesh = ground.mesh;
+  const FrontRule rule = ground.rule();
   std::unordered_set<FaceId> open;
   for (const FaceId f : faces)
     if (ground.partitions.label(f) == 0) open.insert(f);
@@ -31,7 +32,7 @@ std::vector<Area> areas_of(const PartitionGround& ground, const std::vector<Face
     for (std::size_t next = 0; next < area.faces.size(); ++next) {
       const FaceId f = area.faces[next];
       for (const VertexId v : mesh.triangle(f))
-        if (ground.is_regular(v)) {
+        if (rule.is_regular(v)) {
           sum += ground.values[v];
           ++count;
         }

@@ -65,9 +65,9 @@ class InsideGraph {
       return it->second != no_id ? it->second : place_of.at(out);
     };
     for (const FaceId f : faces) {
-      HalfEdgeId h = mesh_.face_half_edge(f);
-      for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
-        if ((h & 1) != 0 || !own(Mesh::opposite(h)) || ground.lines.is_sharp(h >> 1)) continue;
+      for (const HalfEdgeId h : mesh_.sides(f)) {
+        if ((h & 1) != 0 || !own(Mesh::opposite(h)) || ground.lines.is_sharp(Mesh::edge_of(h)))
+          continue;
         const Node a = node_of(h), b = node_of(Mesh::opposite(h));
         links.push_back({a, b, h});
         links.push_back({b, a, Mesh::opposite(h)});
@@ -247,7 +247,7 @@ class Arcs {
     double s = 0.0;
     for (const HalfEdgeId h : loop.half_edges) {
       along_.push_back(s);
-      s += mesh.edge_length(h >> 1);
+      s += mesh.edge_length(Mesh::edge_of(h));
     }
   }
   /// The shorter way between two places.

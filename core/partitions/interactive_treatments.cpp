@@ -10,7 +10,8 @@
 #include <unordered_map>
 
 #include "core/base/disjoint_sets.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
@@ -18,8 +19,7 @@ namespace {
 
 template <class Visit>
 void for_sides(const Mesh& mesh, FaceId f, const Visit& visit) {
-  HalfEdgeId h = mesh.face_half_edge(f);
-  for (int k = 0; k < 3; ++k, h = mesh.next(h)) visit(h);
+  for (const HalfEdgeId h : mesh.sides(f)) visit(h);
 }
 
 /// Faces joined to `starts` by edges, all of which satisfy `may_enter(half-edge crossed, face)`.
@@ -135,20 +135,12 @@ void join_faces_without_vote(const PartitionGround& ground, std::vector<FaceId> 
                              std::unordered_map<FaceId, std::uint32_t>& owner,
                              const OwnerBefore& owner_before) {
   const Mesh& mesh = ground.mesh;
+  const FrontRule rule = ground.rule();
   for (std::size_t next = 0; next < beside.size(); ++next) {
     const FaceId f = beside[next];
     if (owner.contains(f) || ground.partitions.label(f) != 0) continue;
-    const Triangle& t = mesh.triangle(f);
-    if (std::any_of(t.begin(), t.end(), [&](VertexId v) { return ground.is_regular(v); })) continue;
-    double longest = -1.0;
-    FaceId across = no_id;
-    for_sides(mesh, f, [&](HalfEdgeId h) {
-      if (ground.lines.is_sharp(h >> 1) || mesh.is_border_edge(h >> 1)) return;
-      if (const double length = mesh.edge_length(h >> 1); length > longest) {
-        longest = length;
-        across = mesh.face(Mesh::opposite(h));
-      }
-    });
+    if (rule.votes(f) > 0) continue;
+    const FaceId across = rule.across_longest(f);
     if (across == no_id) continue;
     const auto taken = owner.find(across);
     const std::uint32_t label = taken != owner.end() ? taken->second : owner_before(across);
@@ -177,7 +169,7 @@ double value_of(const PartitionGround& ground, FaceId f) {
   double sum = 0.0;
   int count = 0;
   for (const VertexId v : ground.mesh.triangle(f))
-    if (ground.is_regular(v)) {
+    if (ground.rule().is_regular(v)) {
       sum += ground.values[v];
       ++count;
     }
@@ -201,21 +193,6 @@ void take_face(const PartitionGround& ground, FaceId f, Partition& partition) {
 }
 
 }  // namespace
-
-bool PartitionGround::is_regular(VertexId v) const {
-  if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return false;
-  return lines.edges.empty() || sharp_edges_at(mesh, lines, v).empty();
-}
-
-bool PartitionGround::passes(FaceId f, const CurvatureInterval& interval) const {
-  bool votes = false;
-  for (const VertexId v : mesh.triangle(f)) {
-    if (!is_regular(v)) continue;
-    if (values[v] < interval.min || values[v] > interval.max) return false;
-    votes = true;
-  }
-  return votes;
-}
 
 std::vector<FaceId> faces_of(const Mesh& mesh, const Partitions& partitions,
                              const Partition& partition) {
@@ -251,9 +228,10 @@ Result<std::vector<FaceId>> extend_partition(const PartitionGround& ground,
   beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
   std::vector<FaceId> starts;
   for (const FaceId f : beyond)
-    if (ground.passes(f, interval)) starts.push_back(f);
+    if (ground.rule().passes(f, interval)) starts.push_back(f);
   std::vector<FaceId> taken = flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
-    return unassigned(f) && !ground.lines.is_sharp(h >> 1) && ground.passes(f, interval);
+    return unassigned(f) && !ground.lines.is_sharp(Mesh::edge_of(h)) &&
+           ground.rule().passes(f, interval);
   });
   std::unordered_map<FaceId, std::uint32_t> owner;
   for (const FaceId f : taken) owner[f] = partition.id;
@@ -275,13 +253,13 @@ std::vector<std::vector<FaceId>> find_areas(const PartitionGround& ground,
                                             std::uint32_t min_faces) {
   std::unordered_set<FaceId> passing;
   for (const FaceId f : faces)
-    if (ground.partitions.label(f) == 0 && ground.passes(f, interval)) passing.insert(f);
+    if (ground.partitions.label(f) == 0 && ground.rule().passes(f, interval)) passing.insert(f);
   std::vector<std::tuple<double, VertexId, std::vector<FaceId>>> areas;
   std::unordered_set<FaceId> seen;
   for (const FaceId start : faces) {
     if (!passing.contains(start) || seen.contains(start)) continue;
     std::vector<FaceId> area = flood(ground.mesh, {start}, [&](HalfEdgeId h, FaceId f) {
-      return passing.contains(f) && !ground.lines.is_sharp(h >> 1);
+      return passing.contains(f) && !ground.lines.is_sharp(Mesh::edge_of(h));
     });
     seen.insert(area.begin(), area.end());
     if (area.size() < min_faces) continue;
@@ -290,7 +268,7 @@ std::vector<std::vector<FaceId>> find_areas(const PartitionGround& ground,
     VertexId seed = no_id;
     for (const FaceId f : area)
       for (const VertexId v : ground.mesh.triangle(f))
-        if (ground.is_regular(v) &&
+        if (ground.rule().is_regular(v) &&
             (ground.values[v] > highest || (ground.values[v] == highest && v < seed))) {
           highest = ground.values[v];
           seed = v;
@@ -324,7 +302,7 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
   };
   for (const HalfEdgeId h : half_edges_of(mesh, path)) {
     const FaceId a = mesh.face(h), b = mesh.face(Mesh::opposite(h));
-    cut.insert(h >> 1);
+    cut.insert(Mesh::edge_of(h));
     if (own(a) && own(b)) {
       left.push_back(a);
       right.push_back(b);
@@ -336,7 +314,8 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
   // An inner sharp line counts as part of the cut only where the path alone does not do.
   for (const bool lines_cut : {false, true}) {
     const auto may_enter = [&](HalfEdgeId h, FaceId f) {
-      return own(f) && !cut.contains(h >> 1) && !(lines_cut && ground.lines.is_sharp(h >> 1));
+      return own(f) && !cut.contains(Mesh::edge_of(h)) &&
+             !(lines_cut && ground.lines.is_sharp(Mesh::edge_of(h)));
     };
     std::optional<std::vector<FaceId>> smaller = smaller_side(mesh, left, right, may_enter);
     if (!smaller) continue;
@@ -358,7 +337,7 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
   return fail(nothing);
 }
 
-std::vector<FaceId> faces_touched(const Mesh& mesh, const Region& region,
+std::vector<FaceId> faces_touched(const Mesh& mesh, const BrushedRegion& region,
                                   const SharpLines* stop_at) {
   std::vector<VertexId> stroke;
   for (const VertexId v : region.stroke)
@@ -372,7 +351,7 @@ std::vector<FaceId> faces_touched(const Mesh& mesh, const Region& region,
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   const double radius2 = region.radius * region.radius;
   std::vector<FaceId> faces = flood(mesh, starts, [&](HalfEdgeId h, FaceId f) {
-    if (stop_at && stop_at->is_sharp(h >> 1)) return false;
+    if (stop_at && stop_at->is_sharp(Mesh::edge_of(h))) return false;
     const Triangle& t = mesh.triangle(f);
     return std::any_of(stroke.begin(), stroke.end(), [&](VertexId v) {
       return squared_distance_to_triangle(mesh.point(v), mesh.point(t[0]), mesh.point(t[1]),
@@ -392,12 +371,12 @@ std::vector<FaceId> joined_to(const PartitionGround& ground, const std::vector<F
     for_sides(ground.mesh, f, [&](HalfEdgeId h) {
       const FaceId g = ground.mesh.face(Mesh::opposite(h));
       beside = beside || (g != no_id && ground.partitions.label(g) == partition &&
-                          !ground.lines.is_sharp(h >> 1));
+                          !ground.lines.is_sharp(Mesh::edge_of(h)));
     });
     if (beside) starts.push_back(f);
   }
   std::vector<FaceId> joined = flood(ground.mesh, starts, [&](HalfEdgeId h, FaceId f) {
-    return wanted.contains(f) && !ground.lines.is_sharp(h >> 1);
+    return wanted.contains(f) && !ground.lines.is_sharp(Mesh::edge_of(h));
   });
   std::sort(joined.begin(), joined.end());
   return joined;
@@ -406,7 +385,7 @@ std::vector<FaceId> joined_to(const PartitionGround& ground, const std::vector<F
 std::vector<FaceId> with_unassigned_round(const PartitionGround& ground,
                                           const std::vector<FaceId>& faces) {
   std::vector<FaceId> area = flood(ground.mesh, faces, [&](HalfEdgeId h, FaceId f) {
-    return ground.partitions.label(f) == 0 && !ground.lines.is_sharp(h >> 1);
+    return ground.partitions.label(f) == 0 && !ground.lines.is_sharp(Mesh::edge_of(h));
   });
   std::sort(area.begin(), area.end());
   return area;
@@ -447,9 +426,9 @@ FaceLabels smooth_boundaries(const PartitionGround& ground, const Boundaries& bo
         const std::uint32_t label = label_of(g);
         if (label == own) {
           ++own_sides;
-          kept += mesh.edge_length(h >> 1);
-        } else if (label != 0 && !ground.lines.is_sharp(h >> 1) && !is_locked(label)) {
-          gained[label] += mesh.edge_length(h >> 1);
+          kept += mesh.edge_length(Mesh::edge_of(h));
+        } else if (label != 0 && !ground.lines.is_sharp(Mesh::edge_of(h)) && !is_locked(label)) {
+          gained[label] += mesh.edge_length(Mesh::edge_of(h));
         }
       });
       if (own_sides != 1) continue;  // it would part its partition, or take its last face
@@ -518,7 +497,7 @@ EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels
       left[old].push_back(f);
     }
     if (label != 0) add_face(ground, f, partition_of(label));
-    for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(h >> 1); });
+    for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(Mesh::edge_of(h)); });
   }
   // New partitions stand on the face that they got first.
   for (const auto& [f, label] : changes)
@@ -548,7 +527,7 @@ EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels
         labels.set(f, part.id);
         take_face(ground, f, partition);
         add_face(ground, f, part);
-        for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(h >> 1); });
+        for_sides(mesh, f, [&](HalfEdgeId h) { result.touched.push_back(Mesh::edge_of(h)); });
       }
       changed[part.id] = part;
     }

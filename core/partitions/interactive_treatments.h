@@ -9,6 +9,7 @@
 #include "core/curvature/curvature.h"
 #include "core/mesh/mesh.h"
 #include "core/partitions/boundaries.h"
+#include "core/partitions/front_rule.h"
 #include "core/partitions/partitions.h"
 #include "core/sharp_lines/interactive_treatments.h"
 #include "core/sharp_lines/lines.h"
@@ -24,10 +25,7 @@ struct PartitionGround {
   const SharpLines& lines;
   const Partitions& partitions;
 
-  /// True for a vertex with a two-sided curvature: inside, on no sharp line.
-  bool is_regular(VertexId v) const;
-  /// True where each regular vertex of the face lies in the interval and there is one.
-  bool passes(FaceId f, const CurvatureInterval& interval) const;
+  FrontRule rule() const { return {mesh, values, lines}; }
 };
 
 using FaceLabels = std::vector<std::pair<FaceId, std::uint32_t>>;  ///< Face, its new label.
@@ -61,7 +59,7 @@ Result<std::vector<FaceId>> cut_off(const PartitionGround& ground, const Partiti
 /// of the stroke and hang together with the faces round the stroke through others that do, not over
 /// sharp edges where `stop_at` is given. Ascending. Vertices of the stroke that the mesh does not
 /// have are passed over.
-std::vector<FaceId> faces_touched(const Mesh& mesh, const Region& region,
+std::vector<FaceId> faces_touched(const Mesh& mesh, const BrushedRegion& region,
                                   const SharpLines* stop_at = nullptr);
 
 /// Those of `faces` that a partition reaches through faces of `faces`, not over sharp edges.

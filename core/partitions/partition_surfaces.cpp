@@ -7,6 +7,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/simplification/noise.h"
 
 namespace arris {
@@ -66,10 +67,7 @@ std::vector<std::vector<Member>> members_of(const Mesh& mesh, const SharpLines& 
 /// A sample about `middle` in mean edges.
 SurfaceSample sample_at(const Mesh& mesh, VertexId v, const Point& middle, double unit) {
   Point normal = Point::Zero();
-  mesh.for_ring(v, [&](HalfEdgeId h) {
-    const Triangle& t = mesh.triangle(mesh.face(h));
-    normal += (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0]));
-  });
+  mesh.for_ring(v, [&](HalfEdgeId h) { normal += area_normal(mesh, mesh.face(h)); });
   return {(mesh.point(v) - middle) / unit, normal.normalized(), 1.0};
 }
 

@@ -7,7 +7,8 @@
 #include <unordered_map>
 
 #include "core/base/parallel.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/geometry.h"
+#include "core/partitions/front_rule.h"
 
 namespace arris {
 
@@ -20,27 +21,11 @@ class Propagation {
  public:
   Propagation(const Mesh& mesh, const std::vector<double>& values, const SharpLines& lines,
               const std::vector<bool>& taken)
-      : mesh_(mesh),
-        values_(values),
-        lines_(lines),
-        taken_(taken),
-        regular_(mesh.vertex_count(), 0) {
-    parallel_for(mesh.vertex_count(), [&](std::size_t i) {
-      const VertexId v = static_cast<VertexId>(i);
-      if (mesh.is_isolated(v) || mesh.is_border(v) || std::isnan(values[v])) return;
-      bool on_line = false;
-      if (!lines.edges.empty())
-        mesh.for_ring(v, [&](HalfEdgeId h) { on_line |= lines.is_sharp(h >> 1); });
-      regular_[v] = !on_line;
-    });
-    votes_.resize(mesh.face_count());
-    parallel_for(mesh.face_count(), [&](std::size_t f) {
-      const Triangle& t = mesh.triangle(static_cast<FaceId>(f));
-      votes_[f] = static_cast<std::uint8_t>(regular_[t[0]] + regular_[t[1]] + regular_[t[2]]);
-    });
+      : mesh_(mesh), values_(values), lines_(lines), taken_(taken), rule_(mesh, values, lines) {
+    rule_.count_all_votes();
     found_.labels.assign(mesh.face_count(), unassigned);
     for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-      if (regular_[v]) seeds_.push_back(v);
+      if (rule_.is_regular(v)) seeds_.push_back(v);
     std::sort(seeds_.begin(), seeds_.end(), [&](VertexId a, VertexId b) {
       return values_[a] != values_[b] ? values_[a] > values_[b] : a < b;
     });
@@ -49,10 +34,8 @@ class Propagation {
   void run(const CurvatureInterval& interval, const PartitionOptions& options) {
     std::vector<std::uint8_t> passes(mesh_.face_count());
     parallel_for(mesh_.face_count(), [&](std::size_t f) {
-      bool in = votes_[f] > 0 && found_.labels[f] == unassigned && !is_taken(f);
-      for (const VertexId v : mesh_.triangle(static_cast<FaceId>(f)))
-        in = in && (!regular_[v] || (values_[v] >= interval.min && values_[v] <= interval.max));
-      passes[f] = in;
+      const FaceId face = static_cast<FaceId>(f);
+      passes[f] = found_.labels[f] == unassigned && !is_taken(f) && rule_.passes(face, interval);
     });
     const auto first = std::partition_point(seeds_.begin(), seeds_.end(),
                                             [&](VertexId v) { return values_[v] > interval.max; });
@@ -84,13 +67,13 @@ class Propagation {
   void join_faces_without_vote() {
     std::vector<FaceId> left;
     for (FaceId f = 0; f < mesh_.face_count(); ++f)
-      if (votes_[f] == 0 && !is_taken(f)) left.push_back(f);
+      if (rule_.votes(f) == 0 && !is_taken(f)) left.push_back(f);
     std::vector<std::pair<FaceId, std::uint32_t>> joined;
     do {
       joined.clear();
       std::vector<FaceId> still;
       for (const FaceId f : left) {
-        const FaceId across = across_longest(f);
+        const FaceId across = rule_.across_longest(f);
         const std::uint32_t label = across == no_id ? unassigned : found_.labels[across];
         if (label == unassigned)
           still.push_back(f);
@@ -103,10 +86,10 @@ class Propagation {
   }
 
   void take_bare_areas(const PartitionOptions& options) {
-    for (const BareArea& area : find_bare_areas(mesh_, lines_, votes_, options.criterion)) {
+    for (const BareArea& area :
+         find_bare_areas(mesh_, lines_, rule_.all_votes(), options.criterion)) {
       const auto interval = std::ranges::find_if(
-          options.intervals,
-          [&](const CurvatureInterval& i) { return area.value >= i.min && area.value <= i.max; });
+          options.intervals, [&](const CurvatureInterval& i) { return i.holds(area.value); });
       if (interval == options.intervals.end() || area.faces.size() < options.min_faces ||
           std::ranges::any_of(area.faces, [&](FaceId f) { return is_taken(f); }))
         continue;
@@ -131,12 +114,11 @@ class Propagation {
       seen[start] = true;
       shared.clear();
       for (std::size_t next = 0; next < front_.size(); ++next) {
-        HalfEdgeId h = mesh_.face_half_edge(front_[next]);
-        for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+        for (const HalfEdgeId h : mesh_.sides(front_[next])) {
           const FaceId f = mesh_.face(Mesh::opposite(h));
-          if (f == no_id || lines_.is_sharp(h >> 1)) continue;
+          if (f == no_id || lines_.is_sharp(Mesh::edge_of(h))) continue;
           if (found_.labels[f] != unassigned)
-            shared.emplace_back(found_.labels[f], mesh_.edge_length(h >> 1));
+            shared.emplace_back(found_.labels[f], mesh_.edge_length(Mesh::edge_of(h)));
           else if (!seen[f] && !is_taken(f)) {
             seen[f] = true;
             front_.push_back(f);
@@ -170,31 +152,16 @@ class Propagation {
     partition.area += face_area(mesh_, f);
   }
 
-  FaceId across_longest(FaceId f) const {
-    FaceId across = no_id;
-    double longest = -1.0;
-    HalfEdgeId h = mesh_.face_half_edge(f);
-    for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
-      if (lines_.is_sharp(h >> 1) || mesh_.is_border_edge(h >> 1)) continue;
-      const double length = mesh_.edge_length(h >> 1);
-      if (length > longest) {
-        longest = length;
-        across = mesh_.face(Mesh::opposite(h));
-      }
-    }
-    return across;
-  }
-
   void propagate(FaceId start, const CurvatureInterval& interval, const PartitionOptions& options,
                  std::vector<std::uint8_t>& passes) {
     const std::uint32_t label = static_cast<std::uint32_t>(found_.partitions.size() + 1);
     front_.assign(1, start);
     found_.labels[start] = label;
     for (std::size_t next = 0; next < front_.size(); ++next) {
-      HalfEdgeId h = mesh_.face_half_edge(front_[next]);
-      for (int k = 0; k < 3; ++k, h = mesh_.next(h)) {
+      for (const HalfEdgeId h : mesh_.sides(front_[next])) {
         const FaceId f = mesh_.face(Mesh::opposite(h));
-        if (f == no_id || !passes[f] || found_.labels[f] != unassigned || lines_.is_sharp(h >> 1))
+        if (f == no_id || !passes[f] || found_.labels[f] != unassigned ||
+            lines_.is_sharp(Mesh::edge_of(h)))
           continue;
         found_.labels[f] = label;
         front_.push_back(f);
@@ -217,7 +184,7 @@ class Propagation {
     for (const FaceId f : front_) {
       partition.area += face_area(mesh_, f);
       for (const VertexId v : mesh_.triangle(f))
-        if (regular_[v]) {
+        if (rule_.is_regular(v)) {
           sum += values_[v];
           ++count;
         }
@@ -230,9 +197,8 @@ class Propagation {
   const std::vector<double>& values_;
   const SharpLines& lines_;
   const std::vector<bool>& taken_;
-  std::vector<std::uint8_t> regular_;  // vertices with a two-sided curvature
-  std::vector<std::uint8_t> votes_;    // regular vertices of each face
-  std::vector<VertexId> seeds_;        // regular vertices by decreasing value
+  FrontRule rule_;
+  std::vector<VertexId> seeds_;  // regular vertices by decreasing value
   std::vector<FaceId> front_;
   FoundPartitions found_;
 };
@@ -272,10 +238,6 @@ Result<FoundPartitions> propagate_fronts(const Mesh& mesh, const std::vector<dou
 
 std::vector<BareArea> find_bare_areas(const Mesh& mesh, const SharpLines& lines,
                                       const std::vector<std::uint8_t>& votes, Criterion criterion) {
-  const auto normal = [&](FaceId f) {
-    const Triangle& t = mesh.triangle(f);
-    return unit_normal(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
-  };
   std::vector<BareArea> result;
   std::vector<bool> seen(mesh.face_count(), false);
   for (FaceId start = 0; start < mesh.face_count(); ++start) {
@@ -288,19 +250,18 @@ std::vector<BareArea> find_bare_areas(const Mesh& mesh, const SharpLines& lines,
     for (std::size_t next = 0; next < found.faces.size(); ++next) {
       const FaceId f = found.faces[next];
       area += face_area(mesh, f);
-      HalfEdgeId h = mesh.face_half_edge(f);
-      for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+      for (const HalfEdgeId h : mesh.sides(f)) {
         const FaceId across = mesh.face(Mesh::opposite(h));
-        if (across == no_id || lines.is_sharp(h >> 1)) continue;
+        if (across == no_id || lines.is_sharp(Mesh::edge_of(h))) continue;
         if (votes[across] > 0) {
           is_bare = false;
           continue;
         }
-        const Point own = normal(f), other = normal(across);
+        const Point own = unit_normal(mesh, f), other = unit_normal(mesh, across);
         if (!own.isZero(0.0) && !other.isZero(0.0)) {
           const double beta = angle_between(own, other);
           turn += beta;
-          turn_by_length += beta * mesh.edge_length(h >> 1);
+          turn_by_length += beta * mesh.edge_length(Mesh::edge_of(h));
         }
         if (seen[across]) continue;
         seen[across] = true;
@@ -368,12 +329,6 @@ Partitions number_partitions(const Mesh& mesh, const FoundPartitions& found,
   for (std::size_t f = 0; f < labels.size(); ++f) labels[f] = id_of[found.labels[f]];
   result.labels = ChunkedArray<std::uint32_t>(labels, previous.labels);
   return result;
-}
-
-double face_area(const Mesh& mesh, FaceId f) {
-  const Triangle& t = mesh.triangle(f);
-  return 0.5 *
-         (mesh.point(t[1]) - mesh.point(t[0])).cross(mesh.point(t[2]) - mesh.point(t[0])).norm();
 }
 
 }  // namespace arris

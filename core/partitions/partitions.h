@@ -33,6 +33,7 @@ enum class PartitionMethod : std::uint8_t {
 struct CurvatureInterval {
   double min = 0.0;
   double max = 0.0;
+  bool holds(double value) const { return value >= min && value <= max; }
   bool operator==(const CurvatureInterval&) const = default;
 };
 
@@ -109,7 +110,5 @@ std::vector<BareArea> find_bare_areas(const Mesh& mesh, const SharpLines& lines,
 /// belongs to the same mesh, or is empty.
 Partitions number_partitions(const Mesh& mesh, const FoundPartitions& found,
                              const Partitions& previous, std::uint32_t& next_id);
-
-double face_area(const Mesh& mesh, FaceId f);  ///< mm^2
 
 }  // namespace arris

@@ -46,14 +46,15 @@ class Borders {
     return next;
   }
   BorderSide side_of(HalfEdgeId h) const {
-    return {label_of(Mesh::opposite(h)), lines_.is_sharp(h >> 1), mesh_.is_border_edge(h >> 1)};
+    return {label_of(Mesh::opposite(h)), lines_.is_sharp(Mesh::edge_of(h)),
+            mesh_.is_border_edge(Mesh::edge_of(h))};
   }
   /// Whether a chain of boundary edges ends at the vertex, whatever they lie between.
   bool is_extremity(VertexId v) const {
     if (lines_.is_cut(v)) return true;
     int count = 0;
     mesh_.for_ring(v, [&](HalfEdgeId h) {
-      count += lines_.is_sharp(h >> 1) || label_of(h) != label_of(Mesh::opposite(h));
+      count += lines_.is_sharp(Mesh::edge_of(h)) || label_of(h) != label_of(Mesh::opposite(h));
     });
     return count != 2;
   }
@@ -141,7 +142,7 @@ void find_corners(const Mesh& mesh, const Borders& borders, const SideOptions& o
       const double worth = turn + (ends ? options.strong_turn : 0.0);
       candidates.push_back({std::llround(worth * 1e6), v, k, ends, along});
     }
-    along += mesh.edge_length(h >> 1);
+    along += mesh.edge_length(Mesh::edge_of(h));
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.rank != b.rank) return a.rank > b.rank;
@@ -172,7 +173,7 @@ BorderLoop loop_through(const Mesh& mesh, const Borders& borders, HalfEdgeId fir
   do {
     mark_seen(h);
     loop.half_edges.push_back(h);
-    loop.length += mesh.edge_length(h >> 1);
+    loop.length += mesh.edge_length(Mesh::edge_of(h));
     h = borders.following(h);
   } while (h != first);
   find_corners(mesh, borders, options, loop);
@@ -224,8 +225,7 @@ Outline outline_of(const Mesh& mesh, const SharpLines& lines, const Partitions& 
   std::vector<HalfEdgeId> border;
   std::size_t inner_vertices = 0;
   for (const FaceId f : faces) {
-    HalfEdgeId h = mesh.face_half_edge(f);
-    for (int k = 0; k < 3; ++k, h = mesh.next(h)) {
+    for (const HalfEdgeId h : mesh.sides(f)) {
       if (borders.is_border_of(id, h)) border.push_back(h);
       // Each vertex is met once by the half-edge that stands for it.
       if (mesh.half_edge(mesh.from(h)) == h) inner_vertices += borders.is_inner(id, mesh.from(h));

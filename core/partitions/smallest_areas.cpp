@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <tbb/parallel_sort.h>
-
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
 #include "core/sharp_lines/region_joining.h"
@@ -81,7 +79,7 @@ FaceRegions smallest_areas(const Mesh& mesh, const FaceTable& table,
       edge_faces[table.sides[f][k]] = {f, g};
       order.push_back(table.sides[f][k]);
     }
-  tbb::parallel_sort(order.begin(), order.end(), [&](EdgeId a, EdgeId b) {
+  parallel_sort(order.begin(), order.end(), [&](EdgeId a, EdgeId b) {
     return kinks.at_edge[a] != kinks.at_edge[b] ? kinks.at_edge[a] < kinks.at_edge[b] : a < b;
   });
   FaceRegions regions = watershed(table, kinks.at_edge, order, edge_faces, options.watershed);

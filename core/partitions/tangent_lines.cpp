@@ -6,8 +6,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/face_table.h"
 
@@ -113,7 +111,7 @@ Result<std::vector<TangentLine>> find_tangent_lines(const Mesh& mesh, const Part
   }
   const FaceTable table(mesh);
   std::vector<Profile> profiles(places.size());
-  tbb::enumerable_thread_specific<FaceWindow> windows([&] { return FaceWindow(table); });
+  PerThread<FaceWindow> windows([&] { return FaceWindow(table); });
   parallel_for(
       places.size(),
       [&](std::size_t i) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 
 namespace arris {

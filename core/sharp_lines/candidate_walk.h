@@ -39,7 +39,7 @@ class CandidateWalk {
       if (h == no_id) return false;
       const VertexId next = mesh_.to(h);
       const bool on_line = edges_.degree(next) > 0;
-      edges_.take(h >> 1);
+      edges_.take(Mesh::edge_of(h));
       if (on_line || mesh_.is_border(next)) return next == seed;
       v = next;
     }
@@ -88,7 +88,7 @@ class CandidateWalk {
   HalfEdgeId candidate(VertexId v) {
     ring_.clear();
     mesh_.for_ring(v, [&](HalfEdgeId h) {
-      if (is_free(h >> 1)) ring_.push_back(h);
+      if (is_free(Mesh::edge_of(h))) ring_.push_back(h);
     });
     const std::size_t kept = std::min(candidates_, ring_.size());
     std::partial_sort(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(kept), ring_.end(),
@@ -101,12 +101,12 @@ class CandidateWalk {
     double best_ikabs = tv_ik_;
     for (std::size_t k = 0; k < kept; ++k) {
       const HalfEdgeId h = ring_[k];
-      if (!may_be_sharp(curvatures_.beta[h >> 1], options_)) continue;
+      if (!may_be_sharp(curvatures_.beta[Mesh::edge_of(h)], options_)) continue;
       const double ikabs = curvatures_.ikabs[mesh_.to(h)];
       const bool better = best == no_id ? ikabs > best_ikabs
                                         : ikabs > best_ikabs ||
                                               (ikabs == best_ikabs && mesh_.to(h) < mesh_.to(best));
-      if (!better || makes_triangle(h >> 1)) continue;
+      if (!better || makes_triangle(Mesh::edge_of(h))) continue;
       best = h;
       best_ikabs = ikabs;
     }

@@ -26,7 +26,7 @@ class LocalEdges {
   }
   unsigned degree(VertexId v) const {
     unsigned count = 0;
-    mesh_.for_ring(v, [&](HalfEdgeId h) { count += is_sharp(h >> 1); });
+    mesh_.for_ring(v, [&](HalfEdgeId h) { count += is_sharp(Mesh::edge_of(h)); });
     return count;
   }
   bool may_take(EdgeId e) const {
@@ -86,15 +86,15 @@ std::unordered_set<VertexId> within(const Mesh& mesh, const std::vector<VertexId
 }  // namespace
 
 LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
-                        const Line& line, LineEnds ends, double angle, int candidates) {
+                        const Line& line, EndsToExtend ends, double angle, int candidates) {
   LocalEdges edges(mesh, lines);
   SharpLineOptions options;
   options.angle = angle;
   options.candidates = candidates;
   CandidateWalk<LocalEdges> walk(mesh, curvatures, options, edges);
   if (!line.closed) {
-    for (const auto& [end, wanted] : {std::pair{line.vertices.front(), ends != LineEnds::last},
-                                      std::pair{line.vertices.back(), ends != LineEnds::first}})
+    for (const auto& [end, wanted] : {std::pair{line.vertices.front(), ends != EndsToExtend::last},
+                                      std::pair{line.vertices.back(), ends != EndsToExtend::first}})
       // A loose end only: where lines meet, or at the border, a line has come to its end.
       if (wanted && !mesh.is_border(end) && edges.degree(end) == 1) walk.walk(end);
   }
@@ -164,8 +164,8 @@ LineChanges add_path(const Mesh& mesh, const SharpLines& lines, const std::vecto
                      Origin origin) {
   LineChanges changes;
   for (const HalfEdgeId h : half_edges_of(mesh, path))
-    if (!lines.is_sharp(h >> 1) && !mesh.is_border_edge(h >> 1))
-      changes.edges.emplace_back(h >> 1, origin);
+    if (!lines.is_sharp(Mesh::edge_of(h)) && !mesh.is_border_edge(Mesh::edge_of(h)))
+      changes.edges.emplace_back(Mesh::edge_of(h), origin);
   return changes;
 }
 
@@ -173,20 +173,21 @@ LineChanges remove_path(const Mesh& mesh, const SharpLines& lines,
                         const std::vector<VertexId>& path) {
   LineChanges changes;
   for (const HalfEdgeId h : half_edges_of(mesh, path))
-    if (lines.is_sharp(h >> 1)) changes.edges.emplace_back(h >> 1, Origin::none);
+    if (lines.is_sharp(Mesh::edge_of(h)))
+      changes.edges.emplace_back(Mesh::edge_of(h), Origin::none);
   return changes;
 }
 
 std::vector<EdgeId> found_near(const Mesh& mesh, const SharpLines& lines,
                                const std::vector<VertexId>& path) {
   std::unordered_set<EdgeId> own;
-  for (const HalfEdgeId h : half_edges_of(mesh, path)) own.insert(h >> 1);
+  for (const HalfEdgeId h : half_edges_of(mesh, path)) own.insert(Mesh::edge_of(h));
   const std::unordered_set<VertexId> zone =
       within(mesh, path, veto_reach * mesh.mean_edge_length());
   std::vector<EdgeId> found;
   for (const VertexId v : zone)
     mesh.for_ring(v, [&](HalfEdgeId h) {
-      const EdgeId e = h >> 1;
+      const EdgeId e = Mesh::edge_of(h);
       if (mesh.to(h) > v && zone.contains(mesh.to(h)) && !own.contains(e) && lines.is_sharp(e) &&
           lines.edges[e] == Origin::found)
         found.push_back(e);
@@ -221,7 +222,7 @@ std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, 
   return {walk(-1), walk(1)};
 }
 
-std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region) {
+std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const BrushedRegion& region) {
   return within(mesh, region.stroke, region.radius);
 }
 
@@ -236,7 +237,7 @@ LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
   for (const VertexId v : region) {
     if (!mesh.is_border(v)) seeds.push_back(v);
     mesh.for_ring(v, [&](HalfEdgeId h) {
-      if (mesh.to(h) > v && region.contains(mesh.to(h))) inside.push_back(h >> 1);
+      if (mesh.to(h) > v && region.contains(mesh.to(h))) inside.push_back(Mesh::edge_of(h));
     });
   }
   std::sort(inside.begin(), inside.end());
@@ -250,7 +251,7 @@ LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
     if (lines.is_sharp(e)) sharp.push_back(e);
   for (const std::uint32_t id : lines_through(mesh, lines, sharp))
     if (const Line& line = *lines.find(id); line.locked)
-      for (const HalfEdgeId h : half_edges_of(mesh, line.vertices)) locked.insert(h >> 1);
+      for (const HalfEdgeId h : half_edges_of(mesh, line.vertices)) locked.insert(Mesh::edge_of(h));
   for (const EdgeId e : sharp)
     if (lines.edges[e] == Origin::found && !locked.contains(e)) edges.drop(e);
 
@@ -283,13 +284,13 @@ LineChanges recompute_region(const Mesh& mesh, const Curvatures& curvatures,
                  (fresh.contains(group[k]) || lines.edges[group[k]] == Origin::found);
       for (const VertexId v : mesh.edge(group[k]))
         mesh.for_ring(v, [&](HalfEdgeId h) {
-          if (!edges.is_sharp(h >> 1) || seen.contains(h >> 1)) return;
-          if (!edges.may_take(h >> 1)) {
+          if (!edges.is_sharp(Mesh::edge_of(h)) || seen.contains(Mesh::edge_of(h))) return;
+          if (!edges.may_take(Mesh::edge_of(h))) {
             isolated = false;
             return;
           }
-          seen.insert(h >> 1);
-          group.push_back(h >> 1);
+          seen.insert(Mesh::edge_of(h));
+          group.push_back(Mesh::edge_of(h));
         });
     }
     if (isolated && length < options.min_length) too_short.insert(group.begin(), group.end());

@@ -17,13 +17,13 @@
 namespace arris {
 
 /// Which ends of a line a treatment is for: where its path starts, where it stops.
-enum class LineEnds { both, first, last };
+enum class EndsToExtend { both, first, last };
 
 /// The ends of `line` go on by the candidate rule of figure 26 under `angle` (degrees), until there
 /// is no candidate or a line or the border is reached. No changes where neither end goes on, or the
 /// line is closed.
 LineChanges extend_line(const Mesh& mesh, const Curvatures& curvatures, const SharpLines& lines,
-                        const Line& line, LineEnds ends, double angle, int candidates);
+                        const Line& line, EndsToExtend ends, double angle, int candidates);
 
 /// The cheapest path from a loose end of `a` to a loose end of `b` that meets no other line;
 /// `angle` (degrees): how sharp an edge has to be to draw the path. Errors: a line without loose
@@ -63,12 +63,12 @@ std::pair<VertexId, VertexId> stretch_round(const Mesh& mesh, const Line& line, 
 
 /// A region brushed on the surface: the vertices that are joined to one of the stroke by edges, all
 /// of which lie within `radius` (mm) of a vertex of the stroke.
-struct Region {
+struct BrushedRegion {
   std::vector<VertexId> stroke;
   double radius = 0.0;
 };
 /// Vertices of the region. Vertices of the stroke that the mesh does not have are passed over.
-std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const Region& region);
+std::unordered_set<VertexId> vertices_of(const Mesh& mesh, const BrushedRegion& region);
 
 /// Finds the sharp edges inside a region again under thresholds of its own: found edges with both
 /// ends inside go, but for those of locked lines, and are found anew by options.method (`evidence`:

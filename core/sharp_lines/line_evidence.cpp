@@ -5,8 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include <tbb/parallel_sort.h>
-
 #include "core/base/parallel.h"
 
 namespace arris {
@@ -44,12 +42,12 @@ CurvaturesPtr as_measures(const Mesh& mesh, const NormalJump& jump,
   });
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
     if (!mesh.is_isolated(v) && !mesh.is_border(v)) measures->by_decreasing_ikabs.push_back(v);
-  tbb::parallel_sort(measures->by_decreasing_ikabs.begin(), measures->by_decreasing_ikabs.end(),
-                     [&](VertexId a, VertexId b) {
-                       return measures->ikabs[a] != measures->ikabs[b]
-                                  ? measures->ikabs[a] > measures->ikabs[b]
-                                  : a < b;
-                     });
+  parallel_sort(measures->by_decreasing_ikabs.begin(), measures->by_decreasing_ikabs.end(),
+                [&](VertexId a, VertexId b) {
+                  return measures->ikabs[a] != measures->ikabs[b]
+                             ? measures->ikabs[a] > measures->ikabs[b]
+                             : a < b;
+                });
   return measures;
 }
 

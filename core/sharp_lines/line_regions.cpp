@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -21,7 +18,7 @@ std::vector<EdgeId> edges_by_height(const std::vector<std::array<FaceId, 2>>& ed
   order.reserve(edge_faces.size());
   for (EdgeId e = 0; e < edge_faces.size(); ++e)
     if (edge_faces[e][0] != no_id && edge_faces[e][1] != no_id) order.push_back(e);
-  tbb::parallel_sort(order.begin(), order.end(), [&](EdgeId a, EdgeId b) {
+  parallel_sort(order.begin(), order.end(), [&](EdgeId a, EdgeId b) {
     return height[a] != height[b] ? height[a] < height[b] : a < b;
   });
   return order;
@@ -155,7 +152,7 @@ class TestedJoining {
         window_(table) {
     std::iota(parent_.begin(), parent_.end(), 0U);
     // The constructor of the test has not looked at parent_, which is filled only now.
-    tbb::enumerable_thread_specific<FaceWindow> windows([&] { return FaceWindow(table); });
+    PerThread<FaceWindow> windows([&] { return FaceWindow(table); });
     parallel_for(
         test_.chains().size(),
         [&](std::size_t k) { test_.measure(static_cast<std::uint32_t>(k), windows.local()); }, 4);

@@ -42,10 +42,10 @@ std::vector<Line> link_lines(const Mesh& mesh, const Curvatures& curvatures,
     line.closed = chain.closed;
     double turn = 0.0;
     for (const HalfEdgeId h : chain.half_edges) {
-      const double length = mesh.edge_length(h >> 1);
+      const double length = mesh.edge_length(Mesh::edge_of(h));
       line.length += length;
-      turn += length * curvatures.beta[h >> 1];
-      line.origin = std::max(line.origin, origin_of(h >> 1));
+      turn += length * curvatures.beta[Mesh::edge_of(h)];
+      line.origin = std::max(line.origin, origin_of(Mesh::edge_of(h)));
     }
     if (line.length > 0.0) line.mean_angle = turn / line.length * 180.0 / std::numbers::pi;
     lines.push_back(std::move(line));
@@ -119,9 +119,15 @@ const Line* SharpLines::find(std::uint32_t id) const {
 std::vector<HalfEdgeId> sharp_edges_at(const Mesh& mesh, const SharpLines& lines, VertexId v) {
   std::vector<HalfEdgeId> result;
   mesh.for_ring(v, [&](HalfEdgeId h) {
-    if (lines.is_sharp(h >> 1)) result.push_back(h);
+    if (lines.is_sharp(Mesh::edge_of(h))) result.push_back(h);
   });
   return result;
+}
+
+bool is_on_line(const Mesh& mesh, const SharpLines& lines, VertexId v) {
+  bool found = false;
+  mesh.for_ring(v, [&](HalfEdgeId h) { found = found || lines.is_sharp(Mesh::edge_of(h)); });
+  return found;
 }
 
 std::vector<HalfEdgeId> half_edges_of(const Mesh& mesh, const std::vector<VertexId>& path) {
@@ -182,8 +188,8 @@ SharpLines edit_lines(const Mesh& mesh, const Curvatures& curvatures, const Shar
   std::vector<EdgeId> old_edges, new_edges;
   for (const VertexId v : touched)
     mesh.for_ring(v, [&](HalfEdgeId h) {
-      if (previous.is_sharp(h >> 1)) old_edges.push_back(h >> 1);
-      if (result.is_sharp(h >> 1)) new_edges.push_back(h >> 1);
+      if (previous.is_sharp(Mesh::edge_of(h))) old_edges.push_back(Mesh::edge_of(h));
+      if (result.is_sharp(Mesh::edge_of(h))) new_edges.push_back(Mesh::edge_of(h));
     });
   for (std::vector<EdgeId>* edges : {&old_edges, &new_edges}) {
     std::sort(edges->begin(), edges->end());
@@ -204,7 +210,8 @@ SharpLines edit_lines(const Mesh& mesh, const Curvatures& curvatures, const Shar
   // In the order of relink_lines(): by their lowest edge.
   const auto lowest = [&](const Line& line) {
     EdgeId least = no_id;
-    for (const HalfEdgeId h : half_edges_of(mesh, line.vertices)) least = std::min(least, h >> 1);
+    for (const HalfEdgeId h : half_edges_of(mesh, line.vertices))
+      least = std::min(least, Mesh::edge_of(h));
     return least;
   };
   std::sort(fresh.begin(), fresh.end(),
@@ -227,7 +234,8 @@ std::vector<std::uint32_t> lines_through(const Mesh& mesh, const SharpLines& lin
   for (const Chain& chain : chains) {
     double sum = 0.0;
     for (const HalfEdgeId h : chain.half_edges)
-      if (std::binary_search(sharp.begin(), sharp.end(), h >> 1)) sum += mesh.edge_length(h >> 1);
+      if (std::binary_search(sharp.begin(), sharp.end(), Mesh::edge_of(h)))
+        sum += mesh.edge_length(Mesh::edge_of(h));
     length[first_edge(chain.vertices(mesh))] = sum;
   }
   std::vector<std::pair<double, std::uint32_t>> found;

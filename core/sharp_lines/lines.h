@@ -49,6 +49,8 @@ struct SharpLines {
 
 /// Sharp edges at v, as outgoing half-edges.
 std::vector<HalfEdgeId> sharp_edges_at(const Mesh& mesh, const SharpLines& lines, VertexId v);
+/// Whether there is one.
+bool is_on_line(const Mesh& mesh, const SharpLines& lines, VertexId v);
 
 /// The edges along a path of vertices, as half-edges; stretches that the mesh does not have are
 /// left out.

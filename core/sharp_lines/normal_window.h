@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/context.h"
 #include "core/base/parallel.h"
 #include "core/base/result.h"
@@ -104,7 +102,7 @@ Result<void> for_each_window(const Mesh& mesh, const FaceTable& table, float rea
     std::vector<FaceId> seeds;
     std::vector<WindowFace> scratch;
   };
-  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
+  PerThread<Local> locals([&] { return Local(table); });
   // Share by share, so that progress is told and a stop is seen by one thread, in between.
   constexpr std::size_t shares = 50;
   const std::size_t vertices = mesh.vertex_count();

@@ -8,8 +8,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include "core/base/parallel.h"
 #include "core/sharp_lines/normal_window.h"
 #include "core/sharp_lines/watershed.h"
@@ -164,7 +162,7 @@ std::vector<std::uint32_t> find_tight_tubes(const Mesh& mesh, const FaceTable& t
     });
   };
   const FallingExponential falling;
-  tbb::enumerable_thread_specific<Local> locals([&] { return Local(table); });
+  PerThread<Local> locals([&] { return Local(table); });
   std::vector<std::optional<Tube>> tubes(places.size());
   parallel_for(
       places.size(),

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/hash.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
 
 namespace arris {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
 
 namespace arris {
 

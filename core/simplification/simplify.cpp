@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/simplification/noise.h"
 #include "core/simplification/vertex_queue.h"
 #include "core/simplification/working_mesh.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/geometry.h"
 #include "core/simplification/working_mesh.h"
 
 namespace arris {

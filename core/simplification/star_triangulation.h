@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/distance.h"
 #include "core/mesh/mesh.h"
-#include "core/simplification/distance.h"
 
 namespace arris {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 

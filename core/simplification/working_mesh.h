@@ -9,7 +9,6 @@
 #include "core/base/chunked_array.h"
 #include "core/mesh/mesh.h"
 #include "core/sharp_lines/lines.h"
-#include "core/simplification/distance.h"
 #include "core/simplification/error_zones.h"
 
 namespace arris {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -48,6 +50,98 @@ TEST(Architecture, CoreKnowsNeitherQtNorVtk) {
 
 TEST(Architecture, CoreKnowsNothingAboveIt) {
   expect_none(includes_below("core"), std::regex("^(\\.\\./)*(ui|app|tests)/"));
+}
+
+/// Whether `order` holds all folders below `top`, and none of them includes a later one.
+void expect_order(const std::string& top, const std::vector<std::string>& order) {
+  const auto place_of = [&](const std::string& folder) {
+    return static_cast<std::size_t>(std::ranges::find(order, folder) - order.begin());
+  };
+  const std::filesystem::path root = std::filesystem::path(ARRIS_SOURCE_DIR) / top;
+  const std::regex pattern("^" + top + "/([a-z_]+)/");
+  for (const Include& include : includes_below(top)) {
+    const std::string folder = std::filesystem::relative(include.file, root).begin()->string();
+    ASSERT_LT(place_of(folder), order.size()) << folder << " has no place in the order";
+    std::smatch match;
+    if (!std::regex_search(include.header, match, pattern)) continue;
+    EXPECT_LE(place_of(match[1]), place_of(folder))
+        << include.file.string() << ":" << include.line << " includes " << include.header;
+  }
+}
+
+TEST(Architecture, FoldersOfCoreKnowOnlyThoseBeforeThem) {
+  expect_order("core",
+               {"base", "mesh", "samples", "curvature", "sharp_lines", "simplification",
+                "edge_swapping", "curvature_smoothing", "partitions", "document", "guidance"});
+}
+
+TEST(Architecture, FoldersOfTheWindowKnowOnlyThoseBeforeThem) {
+  expect_order("ui", {"view", "panels", "window"});
+}
+
+/// Types that are defined for the whole program: outside other types and unnamed namespaces.
+std::map<std::string, std::vector<std::string>> places_of_types(
+    const std::vector<std::string>& folders) {
+  static const std::regex pattern(R"(^(class|struct|enum class) (\w+)( final)?( :[^:].*| \{.*)$)");
+  std::map<std::string, std::vector<std::string>> places;
+  for (const std::string& folder : folders)
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             std::filesystem::path(ARRIS_SOURCE_DIR) / folder)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending != ".h" && ending != ".cpp") continue;
+      std::ifstream file(entry.path());
+      std::string line;
+      std::smatch match;
+      bool unnamed = false;
+      for (std::size_t number = 1; std::getline(file, line); ++number) {
+        if (line == "namespace {") unnamed = true;
+        if (line == "}  // namespace") unnamed = false;
+        if (!unnamed && std::regex_match(line, match, pattern))
+          places[match[2]].push_back(entry.path().string() + ":" + std::to_string(number));
+      }
+    }
+  return places;
+}
+
+// Two types of one name in one namespace make a program that no compiler has to refuse; in two
+// namespaces, one of which is inside the other, they mislead.
+TEST(Architecture, NoTwoTypesHaveOneName) {
+  const auto places = places_of_types({"core", "ui"});
+  ASSERT_GT(places.size(), 150u) << "the types were not found";
+  for (const auto& [name, where] : places) {
+    std::string all;
+    for (const std::string& place : where) all += place + "\n";
+    EXPECT_EQ(where.size(), 1u) << name << " is defined in\n" << all;
+  }
+}
+
+/// Names of the free functions that the headers below a folder declare.
+std::map<std::string, std::string> functions_below(const std::string& folder) {
+  static const std::regex pattern(
+      R"re(^(?!return |using |template|class |struct |enum |namespace|friend |#|/|\}))re"
+      R"re([\w:<>,&* ]+[ &*](\w+)\(.*$)re");
+  std::map<std::string, std::string> places;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(ARRIS_SOURCE_DIR) / folder)) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream file(entry.path());
+    std::string line;
+    std::smatch match;
+    while (std::getline(file, line))
+      if (!line.starts_with(' ') && std::regex_match(line, match, pattern))
+        places[match[1]] = entry.path().string();
+  }
+  return places;
+}
+
+// A function of the window would hide one of the core without a word.
+TEST(Architecture, TheWindowHidesNoFunctionOfTheCore) {
+  const auto core = functions_below("core"), ui = functions_below("ui");
+  ASSERT_GT(core.size(), 100u) << "the functions were not found";
+  ASSERT_GT(ui.size(), 20u) << "the functions were not found";
+  for (const auto& [name, where] : ui)
+    EXPECT_FALSE(core.contains(name))
+        << name << "() is declared in " << where << " and in " << core.at(name);
 }
 
 TEST(Architecture, CoreNamesItsOwnHeadersFromTheRoot) {

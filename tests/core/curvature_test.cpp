@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,6 +11,8 @@
 #include <stop_token>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
+#include "core/mesh/geometry.h"
 #include "tests/support/meshes.h"
 
 namespace arris {
@@ -667,11 +667,11 @@ TEST(Curvature, IsTheSameWhateverTheNumberOfThreads) {
   const MeshPtr mesh = mesh_of(noisy_plane(100.0, 1.0, 0.2, 0.25, 6));
   CurvaturesPtr one;
   {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit limit(1);
     one = curvatures_of(*mesh);
   }
   for (const std::size_t threads : {2, 3, 8}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     const CurvaturesPtr many = curvatures_of(*mesh);
     EXPECT_TRUE(same_bytes(one->k, many->k));
     EXPECT_TRUE(same_bytes(one->k_area, many->k_area));

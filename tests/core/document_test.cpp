@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
 #include "core/document/export.h"
 #include "core/document/operation.h"
 #include "core/document/treatments/treatments.h"
@@ -555,7 +554,7 @@ TEST_F(Operations, FlippedTwiceGoesOnAsIfNeverFlipped) {
 TEST_F(Operations, SameOperationsGiveTheSameHashOnAnyNumberOfThreads) {
   const std::string mould = write_mesh(folder, "mould.ply", sample_mould(2.0));
   const auto run = [&](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     Document document = applied({}, {"open", {{"file", mould}}});
     std::vector<std::string> hashes{hash_of(document)};
     for (const Operation& operation :

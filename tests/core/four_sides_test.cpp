@@ -13,6 +13,7 @@
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/guidance/worklist.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/four_sided_cuts.h"
 #include "core/partitions/interactive_treatments.h"
 #include "core/partitions/sides.h"

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <limits>
 
+#include "core/base/thread_limit.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
 
@@ -155,7 +155,7 @@ TEST(Leaks, AreTheSameOnOneThreadAndOnTwo) {
   const Document document = applied(
       applied(document_of(sample_mould(1.2)), {"find_sharp_lines", {}}), {"find_partitions", {}});
   const auto run = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     return value_of(find_leaks(*document.mesh, document.lines, document.partitions));
   };
   const std::vector<Leak> one = run(1), two = run(2);

@@ -2,10 +2,9 @@
 // on clean ones, the same wherever and however the part lies.
 
 #include "core/sharp_lines/line_evidence.h"
+#include "core/base/thread_limit.h"
 
 #include <gtest/gtest.h>
-
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -267,7 +266,7 @@ TEST(LineEvidence, IsTheSameWhateverTheNumberOfThreads) {
   const MeshPtr mesh = mesh_of(sample_mould(1.5));
   const CurvaturesPtr curvatures = curvatures_of(*mesh);
   const auto gathered = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     return value_of(gather_line_evidence(*mesh, *curvatures));
   };
   const LineEvidencePtr one = gathered(1), four = gathered(4);

@@ -2,10 +2,9 @@
 // there is some, and the same whatever the unit.
 
 #include "core/simplification/noise.h"
+#include "core/base/thread_limit.h"
 
 #include <gtest/gtest.h>
-
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -164,7 +163,7 @@ TEST(Noise, IsTheSameForAnyNumberOfThreads) {
   const MeshPtr mesh =
       mesh_of(noisy_plane(200.0, 1.0, 0.1, 0.2, 5));  // not all places are looked at
   const double noise = estimate_noise(*mesh);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const ThreadLimit one(1);
   EXPECT_EQ(estimate_noise(*mesh), noise);
 }
 

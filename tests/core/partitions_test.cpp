@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,7 +12,10 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/boundaries.h"
+#include "core/partitions/front_rule.h"
 #include "core/partitions/intervals.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
@@ -587,6 +589,29 @@ TEST(PartitionsProperty, OneIntervalGivesTheComponentsOfThePassingFaces) {
   }
 }
 
+// Finding asks the whole mesh at once, explanations and treatments a face at a time.
+TEST(PartitionsProperty, VotesAreTheSameCountedAtOnceOrAskedFor) {
+  Part part(random_terrain(14, 5), 40.0);
+  const std::vector<double>& values = part.values(Criterion::kabs);
+  const FrontRule asked(*part.mesh, values, part.lines);
+  FrontRule counted = asked;
+  counted.count_all_votes();
+  const CurvatureInterval interval{0.0, values[part.mesh->vertex_count() / 2]};
+  std::array<int, 4> faces_by_votes{};
+  for (FaceId f = 0; f < part.mesh->face_count(); ++f) {
+    ASSERT_EQ(asked.votes(f), counted.votes(f)) << f;
+    ASSERT_EQ(asked.passes(f, interval), counted.passes(f, interval)) << f;
+    int regular = 0;
+    for (const VertexId v : part.mesh->triangle(f)) {
+      ASSERT_EQ(asked.is_regular(v), counted.is_regular(v)) << v;
+      regular += !part.mesh->is_border(v) && sharp_edges_at(*part.mesh, part.lines, v).empty();
+    }
+    ASSERT_EQ(asked.votes(f), regular) << f;
+    ++faces_by_votes[static_cast<std::size_t>(regular)];
+  }
+  for (const int count : faces_by_votes) EXPECT_GT(count, 0) << "every case came about";
+}
+
 TEST(PartitionsProperty, FacesWithoutAVoteJoinAcrossTheirLongestEdge) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -684,7 +709,7 @@ TEST(PartitionsProperty, LaterIntervalsTakeOnlyWhatIsLeft) {
 
 TEST(PartitionsProperty, AnyNumberOfThreadsGivesTheSame) {
   const auto run = [](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     const Part part(random_terrain(60, 5), 40.0);
     return part.find(with_intervals({{0.0, 0.5}, {0.5, infinite}})).labels;
   };

@@ -9,7 +9,8 @@
 
 #include "core/edge_swapping/equilateralize.h"
 #include "core/edge_swapping/swap_edges.h"
-#include "core/simplification/distance.h"
+#include "core/mesh/distance.h"
+#include "core/mesh/geometry.h"
 #include "core/simplification/simplify.h"
 #include "tests/support/documents.h"
 #include "tests/support/nearest.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +10,7 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
 #include "core/sharp_lines/automatic_treatments.h"
 #include "tests/support/documents.h"
 
@@ -489,7 +488,7 @@ TEST(SharpLinesProperty, NothingSharpIsLeftOverBetweenTwoLines) {
 
 TEST(SharpLinesProperty, AnyNumberOfThreadsGivesTheSame) {
   const auto run = [](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     const Part part(random_terrain(60, 5));
     return part.find(options_with_angle(25.0));
   };

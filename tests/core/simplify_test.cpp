@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include <stop_token>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
 #include "core/edge_swapping/equilateralize.h"
 #include "core/edge_swapping/swap_edges.h"
 #include "core/mesh/scan.h"
@@ -423,7 +422,7 @@ TEST(Simplify, ProgressRunsFromZeroToOne) {
 TEST(Simplify, GivesTheSameBytesWhateverTheThreads) {
   const MeshPtr scan = mould_mesh();
   const auto run = [&](std::size_t threads) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit control(threads);
     const Prepared simple = must(simplify(*scan, nullptr, no_edges));
     return must(swap_edges(*simple.mesh, simple.zones, no_edges));
   };

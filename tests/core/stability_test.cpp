@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/thread_limit.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/lines.h"
 #include "tests/support/documents.h"
 
@@ -112,7 +112,7 @@ TEST(PartitionStability, ABoxHasItsSixSidesUnderEveryKmax) {
 TEST(Stability, IsTheSameOnOneThreadAndOnTwo) {
   const Document document = applied(document_of(sample_mould(2.5)), {"find_sharp_lines", {}});
   const auto run = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     return std::pair{value_of(line_stability(*document.mesh, *document.curvatures, nullptr, {})),
                      value_of(partition_stability(*document.mesh, document.curvatures->kabs,
                                                   document.lines, {}))};

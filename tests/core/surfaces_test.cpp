@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +11,9 @@
 #include <set>
 
 #include "core/base/random.h"
+#include "core/base/thread_limit.h"
 #include "core/document/history.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/area_tree.h"
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/surface_fit.h"
@@ -345,7 +345,7 @@ TEST(FindPartitions, AreTheSameWhateverTheNumberOfThreads) {
   const Triangles part = noisy(capped_cylinder(14.0, 18.0, 100, 26, 16), 0.2, 8);
   std::string first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     const std::string hash = hash_of(found(part));
     if (first.empty()) first = hash;
     EXPECT_EQ(hash, first) << threads;

@@ -10,6 +10,7 @@
 
 #include "core/curvature/curvature.h"
 #include "core/edge_swapping/equilateralize.h"
+#include "core/mesh/geometry.h"
 #include "core/mesh/scan.h"
 #include "core/samples/mould.h"
 #include "core/simplification/noise.h"

@@ -13,6 +13,7 @@
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/mesh/chains.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/interactive_treatments.h"
 #include "tests/support/documents.h"
 

@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <tuple>
 
+#include "core/base/thread_limit.h"
 #include "core/guidance/line_ends.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/boundaries.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "tests/support/documents.h"
@@ -260,7 +260,7 @@ TEST(Worklist, GoodContinuationsOfTheSampleRunAlongItsTrueLines) {
 TEST(Worklist, IsTheSameOnOneThreadAndOnTwo) {
   const Document document = segmented(document_of(sample_mould(1.2)));
   const auto run = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const ThreadLimit limit(threads);
     return value_of(worklist(document));
   };
   const auto one = run(1), two = run(2);

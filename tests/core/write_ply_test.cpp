@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "core/base/write_file.h"
 #include "core/mesh/polygon_file.h"
 #include "core/mesh/scan.h"
 #include "tests/support/meshes.h"

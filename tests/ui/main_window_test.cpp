@@ -492,27 +492,15 @@ TEST_F(MainWindowTest, EveryActionHasATooltipAndShortcutsAreUnique) {
   EXPECT_GT(seen.size(), 15);
 }
 
-TEST(Session, OnlyTheLatestPreviewCounts) {
-  const MeshPtr mesh = testing::mesh_of(testing::random_terrain(350, 3));
-  const QTemporaryDir folder;
-  const QString path = folder.filePath("fine.ply");
-  ASSERT_TRUE(write_ply(path.toStdString(), *mesh, {}));
-  Session session;
-  session.open(path);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return !session.busy(); }, patience));
-  int answers = 0;
-  QObject::connect(&session, &Session::changed, &session, [&] { ++answers; });
-  for (int k = 0; k < 50; ++k) session.preview({"find_sharp_lines", {{"angle", 20.0 + k}}});
-  ASSERT_TRUE(QTest::qWaitFor(
-      [&] {
-        const auto& step = session.shown().document.find_sharp_lines;
-        return step && step->parameters["angle"] == 69.0;
-      },
-      patience));
-  EXPECT_LT(answers, 10) << "values that came too late are left out";
-  session.cancel_preview();
-  EXPECT_FALSE(session.shown().document.find_sharp_lines);
-  EXPECT_EQ(session.history().entries().size(), 1u);
+TEST_F(MainWindowTest, EveryFieldIsShownByAKeyOfItsOwn) {
+  open_sample();
+  run_paper_flow();  // so that there are zones to deviate from
+  for (const FieldInfo& info : field_table()) {
+    SCOPED_TRACE(info.name);
+    const int key = info.key;  // Qt's codes of letters and digits are their characters
+    QTest::keyClick(window.get(), static_cast<Qt::Key>(key), Qt::AltModifier);
+    EXPECT_EQ(window->fields().field(), info.field);
+  }
 }
 
 }  // namespace

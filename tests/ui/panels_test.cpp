@@ -59,31 +59,31 @@ QPushButton* button(const QWidget& in, const QString& accessible_name) {
 // -------------------------------------------------------------------------------------
 
 TEST(Numbers, HaveAPointAtMostFourDigitsAndNoGroups) {
-  EXPECT_EQ(number_text(0.0).toStdString(), "0");
-  EXPECT_EQ(number_text(12.3456).toStdString(), "12.35");
-  EXPECT_EQ(number_text(0.0012).toStdString(), "0.0012");
-  EXPECT_EQ(number_text(-24.0).toStdString(), "-24");
-  EXPECT_EQ(number_text(9999.96).toStdString(), "10000");
-  EXPECT_EQ(number_text(2.5e-5).toStdString(), "2.5×10⁻⁵");
-  EXPECT_EQ(number_text(1e-4).toStdString(), "10⁻⁴");
-  EXPECT_EQ(number_text(1e12).toStdString(), "10¹²");
-  EXPECT_EQ(number_text(std::nan("")).toStdString(), "–");
+  EXPECT_EQ(shown_number(0.0).toStdString(), "0");
+  EXPECT_EQ(shown_number(12.3456).toStdString(), "12.35");
+  EXPECT_EQ(shown_number(0.0012).toStdString(), "0.0012");
+  EXPECT_EQ(shown_number(-24.0).toStdString(), "-24");
+  EXPECT_EQ(shown_number(9999.96).toStdString(), "10000");
+  EXPECT_EQ(shown_number(2.5e-5).toStdString(), "2.5×10⁻⁵");
+  EXPECT_EQ(shown_number(1e-4).toStdString(), "10⁻⁴");
+  EXPECT_EQ(shown_number(1e12).toStdString(), "10¹²");
+  EXPECT_EQ(shown_number(std::nan("")).toStdString(), "–");
   EXPECT_EQ(percent_text(0.0234).toStdString(), "2.3 %");
   EXPECT_EQ(count_text(20000).toStdString(), "20,000");
 }
 
 TEST(Numbers, AreReadWithoutGuessingWhatACommaMeans) {
-  EXPECT_EQ(parse_number(" 12.5 "), 12.5);
-  EXPECT_EQ(parse_number("-1e-3"), -1e-3);
-  EXPECT_EQ(parse_number(".5"), 0.5);
+  EXPECT_EQ(typed_number(" 12.5 "), 12.5);
+  EXPECT_EQ(typed_number("-1e-3"), -1e-3);
+  EXPECT_EQ(typed_number(".5"), 0.5);
   for (const char* bad : {"", "1,5", "1,203", "12 mm", "nan", "inf", "0x10", "1e999", "--1", "."}) {
-    EXPECT_FALSE(parse_number(bad)) << bad;
+    EXPECT_FALSE(typed_number(bad)) << bad;
   }
 }
 
 TEST(Numbers, EditorTextsReadBackAsTheirValue) {
   for (const double value : {0.0, 1e-5, 2.5e-7, 0.4189, -12.25, 123456.0, 3e12}) {
-    EXPECT_EQ(parse_number(edit_text(value)), value);
+    EXPECT_EQ(typed_number(edit_text(value)), value);
   }
 }
 
@@ -148,7 +148,7 @@ TEST_F(HistogramPanelTest, DraggedValuesAreWhatTheLabelSays) {
   QTest::mouseRelease(&panel_, Qt::LeftButton, {}, start + QPoint(37, 0));
   ASSERT_EQ(finished_.size(), 1);
   const double value = finished_[0][1].toDouble();
-  EXPECT_EQ(number_text(value).toDouble(), value);
+  EXPECT_EQ(shown_number(value).toDouble(), value);
 }
 
 TEST_F(HistogramPanelTest, AClickMovesNothing) {

@@ -275,9 +275,9 @@ TEST_F(WindowViewTest, RimsOfFilletsAreSetOffAsTangentLines) {
     return count;
   };
   const int before = thin();
-  key(Qt::Key_L, Qt::ShiftModifier);
+  key(Qt::Key_L, Qt::AltModifier);
   EXPECT_TRUE(QTest::qWaitFor([&] { return thin() > before + 100; }, 5000)) << thin();
-  key(Qt::Key_L, Qt::ShiftModifier);
+  key(Qt::Key_L, Qt::AltModifier);
   EXPECT_TRUE(QTest::qWaitFor([&] { return thin() == before; }, 5000)) << thin();
 }
 

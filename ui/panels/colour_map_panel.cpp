@@ -138,7 +138,7 @@ class ColourMapPanel::Private {
   /// A typed end of the range: takes it if both ends make a range, else says why not.
   void typed(NumberEdit* edit) {
     if (!edit->isModified()) return;
-    const auto value = parse_number(edit->text());
+    const auto value = typed_number(edit->text());
     if (!value) {
       edit->set_mistake(QObject::tr("Type a number, with a point for the decimals."));
       return;

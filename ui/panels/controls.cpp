@@ -50,7 +50,7 @@ QKeyEvent with_point(const QKeyEvent& event) {
 
 }  // namespace
 
-QString number_text(double value, int digits) {
+QString shown_number(double value, int digits) {
   if (std::isnan(value)) return QStringLiteral("–");
   if (std::isinf(value)) return value > 0 ? QStringLiteral("∞") : QStringLiteral("-∞");
   const double rounded = round_significant(value, digits);
@@ -72,13 +72,13 @@ QString edit_text(double value, int digits) {
   return QString::number(value, 'g', digits);
 }
 
-QString percent_text(double share) { return number_text(100.0 * share, 2) + QStringLiteral(" %"); }
+QString percent_text(double share) { return shown_number(100.0 * share, 2) + QStringLiteral(" %"); }
 
 QString count_text(qint64 count) {
   return QLocale(QLocale::English, QLocale::UnitedStates).toString(count);
 }
 
-std::optional<double> parse_number(const QString& text) {
+std::optional<double> typed_number(const QString& text) {
   static const QRegularExpression form(
       QStringLiteral(R"(^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$)"));
   QString plain = text.trimmed();
@@ -222,7 +222,7 @@ QString NumberBox::bare(const QString& text) const {
 
 double NumberBox::valueFromText(const QString& text) const {
   if (means_unlimited(bare(text))) return maximum();
-  return parse_number(bare(text)).value_or(value());
+  return typed_number(bare(text)).value_or(value());
 }
 
 QValidator::State NumberBox::validate(QString& text, int&) const {
@@ -235,7 +235,7 @@ QValidator::State NumberBox::validate(QString& text, int&) const {
   if (match.captured(1) == QLatin1String("-") && minimum() >= 0.0) return QValidator::Invalid;
   const bool exponent = !match.captured(4).isEmpty();
   if (!exponent && match.captured(3).size() > decimals()) return QValidator::Invalid;
-  const auto value = parse_number(plain);
+  const auto value = typed_number(plain);
   if (!value) return QValidator::Intermediate;
   if (*value >= minimum() && *value <= maximum()) return QValidator::Acceptable;
   // More digits only lead further away from a range that was overshot; an exponent may lead back.

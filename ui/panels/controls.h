@@ -15,7 +15,7 @@ namespace arris::ui {
 
 /// At most `digits` significant digits with a decimal point and without group separators: "0.0125",
 /// "2.5×10⁻⁵". A dash for NaN.
-QString number_text(double value, int digits = 4);
+QString shown_number(double value, int digits = 4);
 /// The same for an editor, in characters that a keyboard has: "0.00025", "2.5e-7".
 QString edit_text(double value, int digits = 6);
 /// Share of a whole (0 to 1) as a percentage: "2.3 %".
@@ -24,8 +24,8 @@ QString percent_text(double share);
 QString count_text(qint64 count);
 /// Reads "12.5", "-1e-3". Nothing for a comma (it is a group separator to one reader and a decimal
 /// point to the other), for trailing letters, NaN or infinity.
-std::optional<double> parse_number(const QString& text);
-/// `value` rounded to `digits` significant digits, as number_text() shows it.
+std::optional<double> typed_number(const QString& text);
+/// `value` rounded to `digits` significant digits, as shown_number() shows it.
 double round_significant(double value, int digits = 4);
 
 /// `share` = 0: `first`, 1: `second`.

@@ -42,7 +42,7 @@ bool is_number(const QVariant& cell) {
 
 QString cell_text(const QVariant& cell) {
   const int type = cell.typeId();
-  if (type == QMetaType::Double || type == QMetaType::Float) return number_text(cell.toDouble());
+  if (type == QMetaType::Double || type == QMetaType::Float) return shown_number(cell.toDouble());
   return cell.toString();
 }
 

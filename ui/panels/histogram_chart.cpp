@@ -44,7 +44,7 @@ void HistogramChart::take(const Histogram& given) {
   }
 }
 
-QString HistogramChart::value_text(int i) const { return number_text(handles[i].value); }
+QString HistogramChart::value_text(int i) const { return shown_number(handles[i].value); }
 
 QString HistogramChart::reading_text(int i) const {
   return handles[i].reading ? handles[i].reading(handles[i].value) : QString();
@@ -283,8 +283,8 @@ int HistogramChart::handle_at(const QPoint& point, const Layout& at) const {
 }
 
 QString HistogramChart::range_text(std::size_t bin) const {
-  return QStringLiteral("%1 – %2").arg(number_text(histogram.edges[bin]),
-                                       number_text(histogram.edges[bin + 1]));
+  return QStringLiteral("%1 – %2").arg(shown_number(histogram.edges[bin]),
+                                       shown_number(histogram.edges[bin + 1]));
 }
 
 std::optional<std::size_t> HistogramChart::bin_at(int x, const QRect& plot) const {
@@ -335,7 +335,7 @@ void HistogramChart::paint_value_axis(QPainter& painter, const Layout& at) const
   const int y = at.strip.bottom() + 1;
   int free_from = 0;
   for (const double tick : tick_values(axis, at.plot.width() / 80)) {
-    const QString text = number_text(tick);
+    const QString text = shown_number(tick);
     const int x = line_x(tick, at.plot);
     const int width = metrics.horizontalAdvance(text);
     const int left = std::clamp(x - width / 2, 0, std::max(0, widget->width() - width - 3));

@@ -131,7 +131,7 @@ class HistogramPanel::Private : public HistogramChart {
     editor->set_mistake({});
     editor->set_help(
         QObject::tr("%1 from %2 to %3; Enter sets it, Esc leaves it as it was.")
-            .arg(handles[i].name, number_text(handles[i].least), number_text(handles[i].most)));
+            .arg(handles[i].name, shown_number(handles[i].least), shown_number(handles[i].most)));
     editor->setAccessibleName(handles[i].name);
     if (start.isEmpty()) {
       editor->setText(edit_text(handles[i].value, 10));
@@ -158,10 +158,10 @@ class HistogramPanel::Private : public HistogramChart {
   bool enter_text() {
     if (!valid(edited)) return true;
     const ThresholdHandle& handle = handles[edited];
-    const auto value = parse_number(editor->text());
+    const auto value = typed_number(editor->text());
     if (!value || *value < handle.least || *value > handle.most) {
       const QString range =
-          QObject::tr("from %1 to %2").arg(number_text(handle.least), number_text(handle.most));
+          QObject::tr("from %1 to %2").arg(shown_number(handle.least), shown_number(handle.most));
       editor->set_mistake(
           value ? QObject::tr("%1 goes %2.").arg(handle.name, range)
                 : QObject::tr("Type a number %1, with a point for the decimals.").arg(range));
@@ -287,7 +287,7 @@ bool HistogramPanel::event(QEvent* event) {
     if (handle >= 0) {
       const ThresholdHandle& h = p_->handles[handle];
       text = tr("<b>%1</b> %2 %3<br>%4<br><i>Drag, or double-click to type. Shift: finer.</i>")
-                 .arg(h.name.toHtmlEscaped(), number_text(h.value),
+                 .arg(h.name.toHtmlEscaped(), shown_number(h.value),
                       p_->reading_text(handle).toHtmlEscaped(), h.tooltip.toHtmlEscaped());
     } else if (bin && over) {
       text = tr("%1\n%2 of the area")

@@ -52,7 +52,7 @@ void ProfileChart::set_profile(std::optional<JumpProfile> profile) {
   setAccessibleDescription(
       profile_ && profile_->fitted()
           ? tr("Jump %1°, turn between the sides %2°")
-                .arg(number_text(profile_->jump(), 3), number_text(profile_->turn(), 3))
+                .arg(shown_number(profile_->jump(), 3), shown_number(profile_->turn(), 3))
           : QString());
   update();
 }
@@ -91,13 +91,13 @@ void ProfileChart::paintEvent(QPaintEvent*) {
     painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
     painter.setPen(muted);
     painter.drawText(QRectF(plot.left() - gap - numbers, y - line / 2.0, numbers, line),
-                     Qt::AlignRight | Qt::AlignVCenter, number_text(turn, 3));
+                     Qt::AlignRight | Qt::AlignVCenter, shown_number(turn, 3));
   }
   for (int distance = -4; distance <= 4; distance += 2) {
     const double x = x_of(distance);
     painter.drawLine(QPointF(x, plot.bottom()), QPointF(x, plot.bottom() + 3));
     painter.drawText(QRectF(x - numbers, plot.bottom() + gap, 2.0 * numbers, line),
-                     Qt::AlignHCenter | Qt::AlignTop, number_text(distance));
+                     Qt::AlignHCenter | Qt::AlignTop, shown_number(distance));
   }
   painter.drawText(QRect(plot.left(), height() - line - 1, plot.width(), line), Qt::AlignCenter,
                    tr("distance (edges)"));
@@ -145,11 +145,11 @@ void ProfileChart::paintEvent(QPaintEvent*) {
                      Qt::AlignLeft | Qt::AlignVCenter, text);
   };
   const double surround = profile_->turn() - profile_->jump();
-  write(1, muted, tr("surround %1°").arg(number_text(half >= 0.0 ? surround : -surround, 3)));
+  write(1, muted, tr("surround %1°").arg(shown_number(half >= 0.0 ? surround : -surround, 3)));
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  write(0, jump_colour(palette()), tr("here %1°").arg(number_text(std::abs(profile_->jump()), 3)));
+  write(0, jump_colour(palette()), tr("here %1°").arg(shown_number(std::abs(profile_->jump()), 3)));
 }
 
 }  // namespace arris::ui

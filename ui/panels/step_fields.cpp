@@ -41,7 +41,7 @@ namespace {
 QString with_range(const StepParameter& p) {
   if (p.most <= p.least) return p.tooltip;
   const QString range =
-      QObject::tr("From %1 to %2%3.").arg(number_text(p.least), number_text(p.most), p.suffix);
+      QObject::tr("From %1 to %2%3.").arg(shown_number(p.least), shown_number(p.most), p.suffix);
   return p.tooltip.isEmpty() ? range : p.tooltip + QLatin1Char('\n') + range;
 }
 

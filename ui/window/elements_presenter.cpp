@@ -150,7 +150,7 @@ void ElementsPresenter::show_lines() {
 }
 
 void ElementsPresenter::refresh() {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   const Document& document = snapshot.document;
   // A preview may come and go; the selection is that of the state that stays.
   const Document& current = session_->current().document;
@@ -295,7 +295,7 @@ void ElementsPresenter::fit_surfaces() {
 }
 
 void ElementsPresenter::show_selection() {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   Ids shown_lines = lines_;
   for (const std::uint32_t k : boundaries_) {
     const Boundary& boundary = *snapshot.boundaries[k - 1];
@@ -434,7 +434,7 @@ void ElementsPresenter::select(const Ids& lines, const Ids& partitions) {
 }
 
 std::vector<VertexId> ElementsPresenter::place_of_selection() const {
-  const Snapshot& snapshot = session_->shown();
+  const ShownDocument& snapshot = session_->shown();
   std::vector<VertexId> vertices;
   const auto add = [&](const auto& more) {
     vertices.insert(vertices.end(), more.begin(), more.end());

@@ -16,7 +16,7 @@ namespace {
 QString with_unit(double value, const std::string& unit) {
   if (std::isnan(value)) return QStringLiteral("–");
   if (unit == "°") return QString::fromStdString(degrees_in_words(value));
-  const QString text = number_text(value, 3);
+  const QString text = shown_number(value, 3);
   return unit.empty() ? text : text + " " + QString::fromStdString(unit);
 }
 

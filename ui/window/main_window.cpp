@@ -29,6 +29,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/vector_state.h"
+#include "core/base/write_file.h"
 #include "core/document/export.h"
 #include "core/document/journal.h"
 #include "core/mesh/write_ply.h"
@@ -416,15 +417,9 @@ void MainWindow::make_actions() {
 
   QMenu* field_menu = look->addMenu(tr("&Field"));
   field_actions_ = new QActionGroup(this);
-  int digit = 1;
   for (const FieldInfo& info : field_table()) {
-    // The normal jump came when the ten digits were taken.
-    QKeySequence keys;
-    if (info.field == Field::normal_jump)
-      keys = QKeySequence("Alt+J");
-    else if (digit <= 10)
-      keys = QKeySequence(QString("Alt+%1").arg(digit++ % 10));
-    QAction* a = action(field_menu, title_of(info.field), keys,
+    QAction* a = action(field_menu, title_of(info.field),
+                        QKeySequence(QString("Alt+%1").arg(QLatin1Char(info.key))),
                         QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
     a->setCheckable(true);
     a->setData(static_cast<int>(info.field));
@@ -462,7 +457,7 @@ void MainWindow::make_actions() {
     a->setChecked(t.on);
     connect(a, &QAction::toggled, view_, t.set);
   }
-  QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Shift+L"),
+  QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Alt+L"),
                             tr("Set off the Gn boundaries along which two surfaces touch, as at "
                                "both rims of a fillet"));
   tangent->setCheckable(true);

@@ -11,8 +11,8 @@
 #include <QStandardPaths>
 
 #include "core/base/vector_state.h"
+#include "core/base/write_file.h"
 #include "core/document/journal.h"
-#include "core/mesh/write_ply.h"
 
 namespace arris::ui {
 
@@ -24,20 +24,17 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Snapshot snapshot_of(Document document) {
-  Snapshot snapshot{std::move(document), {}};
-  if (!snapshot.document.empty()) snapshot.boundaries = *snapshot.document.boundaries;
-  return snapshot;
+ShownDocument shown_document(Document document) {
+  ShownDocument shown{std::move(document), {}};
+  if (!shown.document.empty()) shown.boundaries = *shown.document.boundaries;
+  return shown;
 }
 
 }  // namespace
 
-Session::Session(QObject* parent) : QObject(parent) { pool_.setMaxThreadCount(1); }
+Session::Session(QObject* parent) : QObject(parent) {}
 
-Session::~Session() {
-  stop_.request_stop();
-  pool_.waitForDone();
-}
+Session::~Session() { stop_.request_stop(); }
 
 double Session::seconds_of(const std::string& operation) const {
   for (const auto& [name, seconds] : seconds_)
@@ -76,21 +73,63 @@ Context Session::context_of_work() {
         Clock::rep before = told->load();
         if (now - before < least.count() || !told->compare_exchange_strong(before, now)) return;
         const QString text = QString::fromUtf8(what.data(), static_cast<qsizetype>(what.size()));
-        QMetaObject::invokeMethod(this, [this, fraction, text] { emit progress(fraction, text); });
+        worker_.tell([this, fraction, text] { emit progress(fraction, text); });
       },
       stop_.get_token());
 }
 
-void Session::start(std::function<void()> work) {
-  pool_.start([work = std::move(work)] {
-    clear_vector_state();
-    work();
+template <class Work, class Finish>
+void Session::work_aside(Work work, Finish finish) {
+  worker_.start([this, work = std::move(work), finish = std::move(finish)] {
+    const auto result = std::make_shared<decltype(work())>(work());
+    worker_.tell([result, finish] { finish(std::move(*result)); });
   });
 }
 
-void Session::show(Snapshot snapshot) {
+template <class Work, class Finish>
+void Session::start_work(Work work, Finish finish) {
+  ++works_;
+  if (!busy_) {
+    busy_ = true;
+    stop_ = std::stop_source();
+    emit busy_changed(true);
+  }
+  work_aside([work = std::move(work), context = context_of_work()] { return work(context); },
+             [this, finish = std::move(finish)](auto result) {
+               --works_;
+               finish(std::move(result));
+               if (busy_ && works_ == 0) finish_work();
+             });
+}
+
+Session::Outcome Session::outcome_of(const Document& base, const Operation& operation,
+                                     const Context& context) {
+  const auto begin = Clock::now();
+  Outcome outcome{perform(base, operation, context), {}, 0.0};
+  if (outcome.performed) outcome.shown = shown_document(outcome.performed->document);
+  outcome.seconds = seconds_since(begin);
+  return outcome;
+}
+
+std::optional<Error> Session::commit(Outcome outcome) {
+  if (!outcome.performed) return outcome.performed.error();
+  const std::string name = outcome.performed->operation.name;
+  const Result<void> committed = history_.commit(std::move(outcome.performed->operation),
+                                                 std::move(outcome.performed->document));
+  if (!committed) return committed.error();
+  std::erase_if(seconds_, [&](const auto& entry) { return entry.first == name; });
+  seconds_.emplace_back(name, outcome.seconds);
+  show(std::move(outcome.shown));
+  return std::nullopt;
+}
+
+void Session::tell(const Error& error) {
+  if (!error.cancelled) emit failed(QString::fromStdString(error.message));
+}
+
+void Session::show(ShownDocument wanted) {
   const MeshPtr before = shown().document.mesh;
-  current_ = std::move(snapshot);
+  current_ = std::move(wanted);
   defaults_.clear();
   previewed_ = nullptr;
   emit changed(before != current_.document.mesh);
@@ -124,36 +163,36 @@ void Session::recover(const QString& journal) { open_journal(journal, true); }
 void Session::open_journal(const QString& path, bool go_on) {
   if (busy_) return;
   cancel_preview();
-  busy_ = true;
-  stop_ = std::stop_source();
-  emit busy_changed(true);
-  start([this, path, go_on, context = context_of_work()] {
-    auto replayed = std::make_shared<Result<Replay>>(replay(path.toStdString(), {}, context));
-    auto snapshot = std::make_shared<Snapshot>();
-    if (*replayed) *snapshot = snapshot_of((*replayed)->history.current());
-    QMetaObject::invokeMethod(this, [this, path, go_on, replayed, snapshot] {
-      if (*replayed) {
-        close();
-        history_ = std::move((*replayed)->history);
-        start_journal(go_on ? path : QString());
+  start_work(
+      [path](const Context& context) {
+        Result<Replay> replayed = replay(path.toStdString(), {}, context);
+        ShownDocument shown;
+        if (replayed) shown = shown_document(replayed->history.current());
+        return std::pair(std::move(replayed), std::move(shown));
+      },
+      [this, path, go_on](std::pair<Result<Replay>, ShownDocument> opened_part) {
+        auto& [replayed, shown] = opened_part;
+        if (!replayed) return tell(replayed.error());
+        take_over(std::move(replayed->history), go_on ? path : QString());
         mark_saved();
         if (go_on) saved_head_ = 0;
-        seconds_.clear();
-        show(std::move(*snapshot));
-        applies_corrections_ = true;
+        show(std::move(shown));
         for (const auto* step :
              {&current_.document.find_sharp_lines, &current_.document.find_partitions})
           if (*step && !(*step)->parameters.value("corrections", true))
             applies_corrections_ = false;
         emit opened();
-        for (const std::string& warning : (*replayed)->warnings)
+        for (const std::string& warning : replayed->warnings)
           emit failed(QString::fromStdString(warning));
-      } else if (!replayed->error().cancelled) {
-        emit failed(QString::fromStdString(replayed->error().message));
-      }
-      finish_work();
-    });
-  });
+      });
+}
+
+void Session::take_over(History history, const QString& journal) {
+  close();
+  history_ = std::move(history);
+  start_journal(journal);
+  seconds_.clear();
+  applies_corrections_ = true;
 }
 
 namespace {
@@ -225,45 +264,30 @@ void Session::close() {
 void Session::open_scan(const QString& path, std::function<Result<void>()> make) {
   if (busy_) return;
   cancel_preview();
-  busy_ = true;
-  stop_ = std::stop_source();
-  emit busy_changed(true);
-  const Operation operation{"open", {{"file", path.toStdString()}}};
-  start([this, operation, make = std::move(make), context = context_of_work()] {
-    const auto begin = Clock::now();
-    const Result<void> made = make ? make() : Result<void>();
-    auto performed = std::make_shared<Result<Performed>>(
-        made ? perform(Document{}, operation, context)
-             : Result<Performed>(tl::unexpected<Error>(made.error())));
-    auto snapshot = std::make_shared<Snapshot>();
-    if (*performed) *snapshot = snapshot_of((*performed)->document);
-    const double seconds = seconds_since(begin);
-    QMetaObject::invokeMethod(this, [this, performed, snapshot, seconds] {
-      if (!*performed) {
-        if (!performed->error().cancelled)
-          emit failed(QString::fromStdString(performed->error().message));
-      } else {
+  start_work(
+      [operation = Operation{"open", {{"file", path.toStdString()}}},
+       make = std::move(make)](const Context& context) -> Outcome {
+        const auto begin = Clock::now();
+        const Result<void> made = make ? make() : Result<void>();
+        if (!made) return {tl::unexpected<Error>(made.error()), {}, 0.0};
+        Outcome outcome = outcome_of(Document{}, operation, context);
+        outcome.seconds = seconds_since(begin);
+        return outcome;
+      },
+      [this](Outcome outcome) {
+        if (!outcome.performed) return tell(outcome.performed.error());
         History history;
-        const Result<void> committed =
-            history.commit(std::move((*performed)->operation), std::move((*performed)->document));
-        if (committed) {
-          close();
-          history_ = std::move(history);
-          start_journal({});
-          saved_head_ = 0;
-          saved_names_.clear();
-          seconds_ = {{"open", seconds}};
-          show(std::move(*snapshot));
-          applies_corrections_ = true;
-          emit opened();
-          emit done("open");
-        } else {
-          emit failed(QString::fromStdString(committed.error().message));
-        }
-      }
-      finish_work();
-    });
-  });
+        const Result<void> committed = history.commit(std::move(outcome.performed->operation),
+                                                      std::move(outcome.performed->document));
+        if (!committed) return tell(committed.error());
+        take_over(std::move(history), {});
+        saved_head_ = 0;
+        saved_names_.clear();
+        seconds_ = {{"open", outcome.seconds}};
+        show(std::move(outcome.shown));
+        emit opened();
+        emit done("open");
+      });
 }
 
 Operation Session::as_wanted(Operation operation) const {
@@ -277,85 +301,55 @@ void Session::run(std::vector<Operation> operations) {
   cancel_preview();
   queue_.clear();
   for (Operation& operation : operations) queue_.push_back(as_wanted(std::move(operation)));
-  busy_ = true;
-  stop_ = std::stop_source();
-  emit busy_changed(true);
   run_next();
 }
 
 void Session::run_next() {
   const Operation operation = queue_.front();
   queue_.erase(queue_.begin());
-  start([this, operation, base = current_.document, context = context_of_work()] {
-    const auto begin = Clock::now();
-    auto performed = std::make_shared<Result<Performed>>(perform(base, operation, context));
-    auto snapshot = std::make_shared<Snapshot>();
-    if (*performed) *snapshot = snapshot_of((*performed)->document);
-    const double seconds = seconds_since(begin);
-    QMetaObject::invokeMethod(this, [this, performed, snapshot, seconds] {
-      Result<void> committed;
-      if (*performed) {
-        const std::string name = (*performed)->operation.name;
-        committed =
-            history_.commit(std::move((*performed)->operation), std::move((*performed)->document));
-        if (committed) {
-          std::erase_if(seconds_, [&](const auto& entry) { return entry.first == name; });
-          seconds_.emplace_back(name, seconds);
-          show(std::move(*snapshot));
-          emit done(QString::fromStdString(name));
-        }
-      }
-      const Error* error = !*performed  ? &performed->error()
-                           : !committed ? &committed.error()
-                                        : nullptr;
-      if (error) queue_.clear();
-      if (error && !error->cancelled) emit failed(QString::fromStdString(error->message));
-      if (!queue_.empty())
-        run_next();
-      else
-        finish_work();
-    });
-  });
+  start_work([operation, base = current_.document](
+                 const Context& context) { return outcome_of(base, operation, context); },
+             [this, name = operation.name](Outcome outcome) {
+               if (const std::optional<Error> error = commit(std::move(outcome))) {
+                 queue_.clear();
+                 tell(*error);
+               } else {
+                 emit done(QString::fromStdString(name));
+               }
+               if (!queue_.empty()) run_next();
+             });
 }
 
 void Session::travel(std::uint32_t sequence) {
   if (busy_ || sequence == history_.head()) return;
   cancel_preview();
-  busy_ = true;
   travelling_ = true;
-  stop_ = std::stop_source();
-  emit busy_changed(true);
-  // The history is the worker's until it answers; usually that is at once.
-  start([this, sequence, context = context_of_work()] {
-    auto travelled = std::make_shared<Result<void>>(history_.travel(sequence, context));
-    auto snapshot = std::make_shared<Snapshot>();
-    if (*travelled) *snapshot = snapshot_of(history_.current());
-    QMetaObject::invokeMethod(this, [this, travelled, snapshot] {
-      if (*travelled)
-        show(std::move(*snapshot));
-      else if (!travelled->error().cancelled)
-        emit failed(QString::fromStdString(travelled->error().message));
-      finish_work();
-    });
-  });
+  start_work(
+      [this, sequence](const Context& context) {  // usually there at once
+        Result<Document> found = history_.document_at(sequence, context);
+        return found ? Result<ShownDocument>(shown_document(std::move(*found)))
+                     : Result<ShownDocument>(tl::unexpected<Error>(found.error()));
+      },
+      [this, sequence](Result<ShownDocument> found) {
+        if (!found) return tell(found.error());
+        if (const auto gone = history_.go_to(sequence, found->document); !gone)
+          return tell(gone.error());
+        show(std::move(*found));
+      });
 }
 
 void Session::fetch(std::uint32_t sequence, std::function<void(Document)> take) {
   if (busy_) return;
   if (sequence == history_.head()) return take(history_.current());
-  busy_ = true;
-  stop_ = std::stop_source();
-  emit busy_changed(true);
-  start([this, sequence, take = std::move(take), context = context_of_work()] {
-    auto found = std::make_shared<Result<Document>>(history_.document_at(sequence, context));
-    QMetaObject::invokeMethod(this, [this, take, found] {
-      finish_work();
-      if (*found)
-        take(std::move(**found));
-      else if (!found->error().cancelled)
-        emit failed(QString::fromStdString(found->error().message));
-    });
-  });
+  start_work(
+      [this, sequence](const Context& context) { return history_.document_at(sequence, context); },
+      [this, take = std::move(take)](Result<Document> found) {
+        finish_work();  // what is taken may lead to more work
+        if (found)
+          take(std::move(*found));
+        else
+          tell(found.error());
+      });
 }
 
 bool Session::name_version(std::uint32_t sequence, const QString& name) {
@@ -399,25 +393,20 @@ void Session::start_preview() {
   const Operation operation = *wanted_preview_;
   wanted_preview_.reset();
   preview_running_ = true;
-  start([this, operation, base = current_.document, round = preview_round_] {
-    auto performed = std::make_shared<Result<Performed>>(perform(base, operation));
-    auto snapshot = std::make_shared<Snapshot>();
-    if (*performed) *snapshot = snapshot_of((*performed)->document);
-    QMetaObject::invokeMethod(this, [this, operation, performed, snapshot, round] {
-      preview_running_ = false;
-      if (round == preview_round_ && *performed) {
-        const MeshPtr before = shown().document.mesh;
-        previewed_ = snapshot;
-        preview_result_ = PreviewResult{operation, std::move(**performed)};
-        emit changed(before != snapshot->document.mesh);
-      } else if (round == preview_round_ && !wanted_preview_) {
-        const QString why = QString::fromStdString(performed->error().message);
-        drop_preview();
-        emit preview_refused(why);
-      }
-      if (wanted_preview_ && !busy_) start_preview();
-    });
-  });
+  work_aside([operation, base = current_.document] { return outcome_of(base, operation, {}); },
+             [this, operation, round = preview_round_](Outcome outcome) {
+               preview_running_ = false;
+               if (round == preview_round_ && outcome.performed) {
+                 const MeshPtr before = shown().document.mesh;
+                 previewed_ = std::make_shared<const ShownDocument>(std::move(outcome.shown));
+                 preview_result_ = PreviewResult{operation, std::move(*outcome.performed)};
+                 emit changed(before != shown().document.mesh);
+               } else if (round == preview_round_ && !wanted_preview_) {
+                 drop_preview();
+                 emit preview_refused(QString::fromStdString(outcome.performed.error().message));
+               }
+               if (wanted_preview_ && !busy_) start_preview();
+             });
 }
 
 void Session::commit_preview(const Operation& given) {
@@ -428,13 +417,10 @@ void Session::commit_preview(const Operation& given) {
     ++preview_round_;
     // The picture stays the preview's until the result is there.
     queue_ = {operation};
-    busy_ = true;
-    stop_ = std::stop_source();
-    emit busy_changed(true);
     run_next();
     return;
   }
-  const std::shared_ptr<const Snapshot> snapshot = previewed_;
+  const std::shared_ptr<const ShownDocument> previewed = previewed_;
   const std::string name = preview_result_->performed.operation.name;
   const Result<void> committed = history_.commit(std::move(preview_result_->performed.operation),
                                                  std::move(preview_result_->performed.document));
@@ -446,7 +432,7 @@ void Session::commit_preview(const Operation& given) {
     emit failed(QString::fromStdString(committed.error().message));
     return;
   }
-  show(*snapshot);
+  show(*previewed);
   emit done(QString::fromStdString(name));
 }
 

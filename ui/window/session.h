@@ -11,21 +11,22 @@
 #include <QObject>
 #include <QString>
 #include <QStringList>
-#include <QThreadPool>
 
 #include "core/document/history.h"
 #include "core/partitions/boundaries.h"
+#include "ui/window/worker.h"
 
 namespace arris::ui {
 
 /// A document with the boundaries derived from it, as the window shows it.
-struct Snapshot {
+struct ShownDocument {
   Document document;
   Boundaries boundaries;
 };
 
 /// The open part: its history, and the work on it, which runs on a thread of its own. All calls and
-/// all signals are on the UI thread.
+/// all signals are on the UI thread, and so is every change of the history: the worker only makes
+/// documents.
 class Session : public QObject {
   Q_OBJECT
  public:
@@ -33,8 +34,8 @@ class Session : public QObject {
   ~Session() override;
 
   /// What is to be shown: the preview while there is one, else the current document.
-  const Snapshot& shown() const { return previewed_ ? *previewed_ : current_; }
-  const Snapshot& current() const { return current_; }
+  const ShownDocument& shown() const { return previewed_ ? *previewed_ : current_; }
+  const ShownDocument& current() const { return current_; }
   bool is_previewing() const { return previewed_ != nullptr; }
   const History& history() const { return history_; }
   /// Seconds the last run of an operation took here; 0: not run in this window.
@@ -113,8 +114,26 @@ class Session : public QObject {
  private:
   /// As it is to be run: finding does corrections again, or not.
   Operation as_wanted(Operation operation) const;
-  void start(std::function<void()> work);
+  /// What an operation gave.
+  struct Outcome {
+    Result<Performed> performed;
+    ShownDocument shown;  ///< Where it was performed.
+    double seconds = 0.0;
+  };
+  static Outcome outcome_of(const Document& base, const Operation& operation,
+                            const Context& context);
+
+  /// `work`() runs on the worker thread, then `finish`(its result) on the UI thread.
+  template <class Work, class Finish>
+  void work_aside(Work work, Finish finish);
+  /// The same with `work`(context), and the session busy from now until `finish` returns, or until
+  /// the end of the work that `finish` starts.
+  template <class Work, class Finish>
+  void start_work(Work work, Finish finish);
   void finish_work();
+  /// Makes a history entry of it and shows it. The error where that fails, or where it is one.
+  std::optional<Error> commit(Outcome outcome);
+  void tell(const Error& error);
   void run_next();
   void start_preview();
   void drop_preview();
@@ -122,24 +141,26 @@ class Session : public QObject {
   void open_journal(const QString& path, bool go_on);
   /// From here on every edit is on disk before its result is shown.
   void start_journal(const QString& path);
+  /// The history of another part from here on, journalled to `journal` (empty: a new file).
+  void take_over(History history, const QString& journal);
   Context context_of_work();
-  void show(Snapshot snapshot);
+  void show(ShownDocument wanted);
 
   History history_;
   std::unique_ptr<QLockFile> journal_lock_;  // tells other windows that the journal is in use
   QString journal_path_;
   std::uint32_t saved_head_ = 0;
   std::map<std::uint32_t, std::string> saved_names_;
-  Snapshot current_;
-  std::shared_ptr<const Snapshot> previewed_;
+  ShownDocument current_;
+  std::shared_ptr<const ShownDocument> previewed_;
   std::vector<std::pair<std::string, double>> seconds_;
   /// Defaults of steps that the current document has not run; worked out when first asked for.
   mutable std::map<std::string, nlohmann::json> defaults_;
 
   bool applies_corrections_ = true;
 
-  QThreadPool pool_;  // one thread: work goes one after the other
   bool busy_ = false;
+  int works_ = 0;  // begun by start_work() and not finished
   bool travelling_ = false;
   int steps_to_go_ = 0;  // asked for while travelling: back where negative
   std::stop_source stop_;
@@ -153,6 +174,8 @@ class Session : public QObject {
   bool preview_running_ = false;
   std::uint64_t preview_round_ = 0;  // results of earlier rounds are stale
   std::optional<PreviewResult> preview_result_;
+
+  Worker worker_;  // the last member: it ends before what its work may use
 };
 
 }  // namespace arris::ui

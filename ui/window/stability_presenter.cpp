@@ -158,7 +158,7 @@ void StabilityPresenter::refresh() {
           const QString unit = kind == Kind::lines_by_angle ? QStringLiteral("°") : QString();
           curve.plateau = {from, to};
           curve.plateau_text = tr("steady from %1 to %2")
-                                   .arg(number_text(from, 3) + unit, number_text(to, 3) + unit);
+                                   .arg(shown_number(from, 3) + unit, shown_number(to, 3) + unit);
         }
         histogram_->set_curve(std::move(curve));
       });

@@ -439,7 +439,7 @@ void TreatmentsPresenter::stop() {
 
 void TreatmentsPresenter::show_result() {
   const Document &before = session_->current().document, &after = session_->shown().document;
-  const auto mm = [](double length) { return number_text(length, 3) + tr(" mm"); };
+  const auto mm = [](double length) { return shown_number(length, 3) + tr(" mm"); };
   double length_before = 0.0, length_after = 0.0;
   for (const LinePtr& line : before.lines.lines) length_before += line->length;
   for (const LinePtr& line : after.lines.lines) length_after += line->length;
@@ -461,7 +461,8 @@ void TreatmentsPresenter::show_result() {
                        .arg(after.partitions.partitions.size());
     constexpr double rounding = 1e-9;
     if (std::abs(change) > rounding * area_before)
-      text += tr(", area %1%2 mm²").arg(change < 0.0 ? "−" : "+", number_text(std::abs(change), 3));
+      text +=
+          tr(", area %1%2 mm²").arg(change < 0.0 ? "−" : "+", shown_number(std::abs(change), 3));
     parts << text;
   }
   bar_->set_result(parts.isEmpty() ? tr("nothing changes") : parts.join("; "), false);

@@ -9,6 +9,7 @@
 #include "core/base/words.h"
 #include "core/document/treatments/partition_targets.h"
 #include "core/document/treatments/treatments.h"
+#include "core/mesh/geometry.h"
 #include "core/partitions/fill_areas.h"
 
 namespace arris {

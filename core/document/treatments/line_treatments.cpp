@@ -66,18 +66,18 @@ Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
   if (!line) return tl::unexpected<Error>(line.error());
   if ((*line)->closed) return fail("A closed line has no end to extend.");
   const std::string wanted = parameters.at("ends");
-  LineEnds ends = wanted == "both"    ? LineEnds::both
-                  : wanted == "first" ? LineEnds::first
-                                      : LineEnds::last;
+  EndsToExtend ends = wanted == "both"    ? EndsToExtend::both
+                      : wanted == "first" ? EndsToExtend::first
+                                          : EndsToExtend::last;
   // Which end is which is decided by the anchor.
   const auto distance = [&](VertexId a, VertexId b) {
     return (ground.mesh.point(a) - ground.mesh.point(b)).norm();
   };
   const VertexId first = (*line)->vertices.front(), last = (*line)->vertices.back();
-  if (ends != LineEnds::both && round != Round::first &&
+  if (ends != EndsToExtend::both && round != Round::first &&
       distance(anchor.front(), last) + distance(anchor.back(), first) <
           distance(anchor.front(), first) + distance(anchor.back(), last))
-    ends = ends == LineEnds::first ? LineEnds::last : LineEnds::first;
+    ends = ends == EndsToExtend::first ? EndsToExtend::last : EndsToExtend::first;
   ground.change(extend_line(ground.mesh, ground.measures(), ground.lines, **line, ends,
                             parameters.at("angle"), parameters.at("candidates")));
   return outcome;
@@ -311,7 +311,7 @@ Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
     options.method = LineMethod::normal_jump;
     options.bridge_gap = default_bridge_gap(ground.mesh, options.method);
   }
-  Region region;
+  BrushedRegion region;
   if (parameters.contains("region")) {
     region = region_of(parameters.at("region"));
   } else {

@@ -171,7 +171,7 @@ Result<json> resolve_recompute(const Document& document, const json& given) {
 }
 
 /// Faces of a region but for those of locked partitions.
-std::vector<FaceId> open_faces(const Ground& ground, const Region& region,
+std::vector<FaceId> open_faces(const Ground& ground, const BrushedRegion& region,
                                const SharpLines* stop_at) {
   std::vector<FaceId> faces = faces_touched(ground.mesh, region, stop_at);
   std::unordered_map<std::uint32_t, bool> locked;

@@ -454,7 +454,7 @@ std::string targets_in_words(const nlohmann::json& parameters, const std::string
   return named(ids_of(*ids), one, many);
 }
 
-Region region_of(const nlohmann::json& json) {
+BrushedRegion region_of(const nlohmann::json& json) {
   return {json.at("vertices").get<Path>(), json.at("radius")};
 }
 CurvatureInterval interval_of(const nlohmann::json& json) {

@@ -106,7 +106,7 @@ void read_interval(ParameterReader& reader, const std::string& name,
 Path path_of(const nlohmann::json& json);
 std::vector<Path> paths_of(const nlohmann::json& json);
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json);
-Region region_of(const nlohmann::json& json);
+BrushedRegion region_of(const nlohmann::json& json);
 CurvatureInterval interval_of(const nlohmann::json& json);
 
 /// "0 to 0.236", "above 0.236".

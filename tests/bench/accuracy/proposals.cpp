@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/document/document.h"
+#include "core/mesh/geometry.h"
 #include "tests/bench/accuracy/narrow.h"
 #include "tests/bench/accuracy/samples.h"
 #include "tests/bench/accuracy/turning.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/number_text.h"
+#include "core/base/write_file.h"
 #include "core/mesh/write_ply.h"
 
 namespace arris::accuracy {
