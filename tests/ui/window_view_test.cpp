@@ -275,9 +275,9 @@ TEST_F(WindowViewTest, RimsOfFilletsAreSetOffAsTangentLines) {
     return count;
   };
   const int before = thin();
-  key(Qt::Key_L, Qt::AltModifier);
+  key(Qt::Key_T, Qt::ControlModifier);
   EXPECT_TRUE(QTest::qWaitFor([&] { return thin() > before + 100; }, 5000)) << thin();
-  key(Qt::Key_L, Qt::AltModifier);
+  key(Qt::Key_T, Qt::ControlModifier);
   EXPECT_TRUE(QTest::qWaitFor([&] { return thin() == before; }, 5000)) << thin();
 }
 

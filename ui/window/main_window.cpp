@@ -457,7 +457,7 @@ void MainWindow::make_actions() {
     a->setChecked(t.on);
     connect(a, &QAction::toggled, view_, t.set);
   }
-  QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Alt+L"),
+  QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Ctrl+T"),
                             tr("Set off the Gn boundaries along which two surfaces touch, as at "
                                "both rims of a fillet"));
   tangent->setCheckable(true);
