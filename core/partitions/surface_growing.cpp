@@ -41,72 +41,19 @@ class Growing {
     });
     for (const std::uint32_t a : order) {
       if (members[a].size() < options_.least) break;
-      if (Seed whole = free_of(members[a]); fit(whole)) grow(std::move(whole));
-      grow_in(members[a]);
+      grow(members[a]);
+      // What it did not explain, from places in it; a place where nothing grew is not tried again.
+      for (const std::uint32_t k : members[a]) {
+        if (surface_[k] != no_id || tried_[k]) continue;
+        const std::vector<std::uint32_t> seed = window(k);
+        grow(seed);
+        for (const std::uint32_t other : seed) tried_[other] = 1;
+      }
     }
     return std::move(surface_);
   }
 
  private:
-  struct Seed {
-    std::vector<std::uint32_t> members;
-    FittedSurface fitted;
-  };
-
-  Seed free_of(std::vector<std::uint32_t> members) const {
-    std::erase_if(members, [&](std::uint32_t k) { return surface_[k] != no_id; });
-    return {std::move(members), {}};
-  }
-
-  /// Whether a surface may grow from there. Changes nothing else, so that seeds can be fitted at
-  /// once.
-  bool fit(Seed& seed) const {
-    if (seed.members.size() < options_.least) return false;
-    seed.fitted = fit_surface(samples_of(seed.members), noise_);
-    return seed.fitted.misfit <= 2.0 * options_.good;
-  }
-
-  /// What was not explained in an area, from places in it; a place where nothing grew is not tried
-  /// again.
-  ///
-  /// Most places lead to nothing. So the next ones are fitted at once, as if nothing grew from
-  /// them; where it does, those after it are given up and gathered anew. What grows is the same as
-  /// one by one.
-  void grow_in(const std::vector<std::uint32_t>& members) {
-    constexpr std::size_t fewest = 8, most = 256;  // at once: ever more while nothing grows
-    struct Try {
-      std::size_t next;  // place after it
-      std::uint32_t number;
-      Seed seed;
-      bool fits = false;
-    };
-    std::vector<Try> tries;
-    std::size_t at_once = fewest;
-    for (std::size_t place = 0; place < members.size();) {
-      tries.clear();
-      for (; place < members.size() && tries.size() < at_once; ++place) {
-        const std::uint32_t k = members[place];
-        if (surface_[k] != no_id || tried_[k] != 0) continue;
-        tries.push_back({place + 1, ++tries_, {window(k), {}}});
-        for (const std::uint32_t other : tries.back().seed.members)
-          if (tried_[other] == 0) tried_[other] = tries_;
-      }
-      parallel_for(
-          tries.size(), [&](std::size_t i) { tries[i].fits = fit(tries[i].seed); }, 1);
-      at_once = std::min(2 * at_once, most);
-      for (Try& one : tries) {
-        if (!one.fits || !grow(std::move(one.seed))) continue;
-        for (const Try& later : tries)
-          if (later.number > one.number)
-            for (const std::uint32_t other : later.seed.members)
-              if (tried_[other] > one.number) tried_[other] = 0;
-        place = one.next;
-        at_once = fewest;
-        break;
-      }
-    }
-  }
-
   /// Free grains about one, in its area.
   std::vector<std::uint32_t> window(std::uint32_t first) {
     ++stamp_;
@@ -130,10 +77,11 @@ class Growing {
     return samples;
   }
 
-  /// From a seed that fits.
-  bool grow(Seed seed) {
-    std::vector<std::uint32_t>& members = seed.members;
-    FittedSurface& fitted = seed.fitted;
+  bool grow(std::vector<std::uint32_t> members) {
+    std::erase_if(members, [&](std::uint32_t k) { return surface_[k] != no_id; });
+    if (members.size() < options_.least) return false;
+    FittedSurface fitted = fit_surface(samples_of(members), noise_);
+    if (fitted.misfit > 2.0 * options_.good) return false;
     std::size_t searched = members.size();  // when all types were tried last
     std::vector<std::uint32_t> kept;        // as far as one surface explained all of it
     for (int round = 0; round < options_.rounds; ++round) {
@@ -184,8 +132,7 @@ class Growing {
   const SurfaceGrowingOptions& options_;
   std::vector<std::uint32_t> surface_;
   std::vector<std::uint32_t> seen_;
-  std::vector<std::uint32_t> tried_;  // number of the first try from there; 0: none
-  std::uint32_t tries_ = 0;
+  std::vector<std::uint8_t> tried_;
   std::uint32_t stamp_ = 0;
   std::uint32_t count_ = 0;
 };
