@@ -103,7 +103,7 @@ TEST_F(Operations, TableHoldsEachOnceWithTitleAndVersion) {
   EXPECT_EQ(find_operation("no such thing"), nullptr);
   std::set<std::string_view> covered;
   for (const Operation& operation : samples()) covered.insert(find_operation(operation.name)->name);
-  // Treatments need lines and partitions: treatments_test.cpp.
+  // Treatments need lines and partitions: line_treatments_test.cpp and the like.
   for (const Treatment* treatment : all_treatments()) covered.insert(treatment->name);
   covered.insert({"lock", "lift_correction"});
   EXPECT_EQ(covered, names) << "every operation takes part in these tests";
