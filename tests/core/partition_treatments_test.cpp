@@ -157,7 +157,8 @@ TEST(ExtendPartition, TakesSeveralAtOnce) {
       applied(document, {"find_partitions", {{"intervals", {{0.0, 1.0}}}, {"min_faces", 1}}});
   ASSERT_EQ(document.partitions.partitions.size(), 2u);
   std::vector<std::uint32_t> ids;
-  for (const PartitionPtr& partition : document.partitions.partitions) {
+  const std::vector<PartitionPtr> sides = document.partitions.partitions;
+  for (const PartitionPtr& partition : sides) {
     ids.push_back(partition->id);
     const Mesh& mesh = *document.mesh;
     const std::vector<FaceId> faces = faces_of(mesh, document.partitions, *partition);

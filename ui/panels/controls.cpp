@@ -78,6 +78,10 @@ QString count_text(qint64 count) {
   return QLocale(QLocale::English, QLocale::UnitedStates).toString(count);
 }
 
+QString counted(std::size_t count, const QString& one, const QString& many) {
+  return count_text(static_cast<qint64>(count)) + " " + (count == 1 ? one : many);
+}
+
 std::optional<double> typed_number(const QString& text) {
   static const QRegularExpression form(
       QStringLiteral(R"(^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$)"));

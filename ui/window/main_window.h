@@ -75,6 +75,15 @@ class MainWindow : public QMainWindow {
   /// What helps to find what is left: worklist, explanations, corrections, stability curve.
   void make_guidance();
   void make_actions();
+  void make_file_menu();
+  void make_edit_menu();
+  void make_part_menu();
+  void make_view_menu();
+  void make_field_menu(QMenu* menu);
+  void add_toggles(QMenu* look);
+  void make_standard_views(QMenu* standard);
+  void make_help_menu();
+  void make_tool_bars();
   void make_status_bar();
   void choose_file();
   void choose_picture();
@@ -94,6 +103,8 @@ class MainWindow : public QMainWindow {
   void show_hover(const Document& document, const std::optional<Pick>& pick);
   /// The view, or both views while versions are compared.
   QImage picture(const PictureOptions& options);
+  /// What can be done with what is selected, to a menu on the view or a table.
+  void add_selection_actions(QMenu& menu);
   void context_menu(const QPoint& global, const std::optional<Pick>& pick);
   /// What can be done with the rows that are selected in a table.
   void table_menu(const QPoint& global);
@@ -143,6 +154,8 @@ class MainWindow : public QMainWindow {
   QAction* flip_;
   QAction* drop_;
   QAction* report_;
+  QAction* fit_;
+  QAction* zoom_;
   QAction* show_field_;
   QAction* show_partitions_;
   QActionGroup* field_actions_;

@@ -22,10 +22,6 @@ QString seconds_text(double seconds) {
          " s";
 }
 
-QString counted(std::size_t count, const QString& one, const QString& many) {
-  return count_text(static_cast<qint64>(count)) + " " + (count == 1 ? one : many);
-}
-
 /// The steps that can be run, in the order of figure 2.
 constexpr const char* chain[] = {"simplify",       "swap_edges",       "find_sharp_lines",
                                  "equilateralize", "smooth_curvature", "find_partitions"};
