@@ -63,7 +63,10 @@ TEST_F(MeshViewTest, PicksLinesThatAreShown) {
   QPoint on_line;
   for (int y = 0; y < view_.height(); ++y) {
     const auto pick = view_.pick({middle().x(), y});
-    if (pick && pick->line == 7u) on_line = QPoint(middle().x(), y);
+    if (!pick || pick->line != 7u) continue;
+    on_line = QPoint(middle().x(), y);
+    for (const VertexId v : mesh->edge(pick->edge))  // the edge is the line's, too
+      EXPECT_NE(std::find(line.vertices.begin(), line.vertices.end(), v), line.vertices.end());
   }
   ASSERT_FALSE(on_line.isNull());
   EXPECT_FALSE(view_.pick(on_line + QPoint(0, 30))->line);

@@ -80,7 +80,7 @@ enum class Tool {
 struct Pick {
   FaceId face = no_id;
   VertexId vertex = no_id;  ///< The corner of `face` nearest to the pointer.
-  EdgeId edge = no_id;      ///< The edge of `face` nearest to the pointer.
+  EdgeId edge = no_id;      ///< Of the line; where there is none, of `face` nearest to the pointer.
   std::uint32_t line = 0;   ///< Id of the line within a few pixels, 0: none.
   Point point = Point::Zero();
 };

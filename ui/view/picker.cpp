@@ -84,9 +84,15 @@ Point drawn_point(const PickSpace& space, const ViewLine& line, std::size_t segm
   return point + towards * (lift * space.camera.units_per_pixel(space.size));
 }
 
+struct PickedLine {
+  std::uint32_t id;
+  EdgeId edge;
+  Point point;
+};
+
 /// The nearest line that is drawn within reach and that the surface does not hide there.
-std::optional<std::pair<std::uint32_t, Point>> line_at(const PickSpace& space, QPointF position,
-                                                       const std::vector<ViewLine>& lines) {
+std::optional<PickedLine> line_at(const PickSpace& space, QPointF position,
+                                  const std::vector<ViewLine>& lines) {
   const Mesh& mesh = *space.tree.mesh();
   const Eigen::Vector2d at(position.x(), position.y());
   std::vector<Candidate> candidates;
@@ -109,9 +115,9 @@ std::optional<std::pair<std::uint32_t, Point>> line_at(const PickSpace& space, Q
   for (const Candidate& candidate : candidates) {
     const ViewLine& line = lines[candidate.line];
     if (!is_seen(space, drawn_point(space, line, candidate.segment, candidate.share))) continue;
-    const Point& from = mesh.point(line.vertices[candidate.segment]);
-    const Point& to = mesh.point(line.vertices[candidate.segment + 1]);
-    return std::pair{line.id, Point(from + candidate.share * (to - from))};
+    const VertexId a = line.vertices[candidate.segment], b = line.vertices[candidate.segment + 1];
+    const Point point = mesh.point(a) + candidate.share * (mesh.point(b) - mesh.point(a));
+    return PickedLine{line.id, mesh.find_edge(a, b).value_or(no_id), point};
   }
   return std::nullopt;
 }
@@ -165,8 +171,11 @@ std::optional<Pick> pick_at(const PickSpace& space, QPointF position,
     } while (h != first);
   }
   if (const auto line = line_at(space, position, lines)) {
-    pick.line = line->first;
-    if (pick.face == no_id) pick.point = line->second;
+    pick.line = line->id;
+    if (pick.face == no_id)
+      pick.point = line->point;
+    else if (line->edge != no_id)
+      pick.edge = line->edge;
   }
   if (pick.face == no_id && pick.line == 0) return std::nullopt;
   return pick;

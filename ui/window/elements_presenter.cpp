@@ -76,7 +76,7 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
 ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
   auto* table = new ElementTable(
       tr("boundaries"),
-      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Radius"), tr("Left"),
+      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Radius mm"), tr("Left"),
        tr("Right")},
       {tr("Number"),
        tr("C0: sharp line. Gn: between two partitions; tangent where their surfaces touch, as at "
