@@ -526,6 +526,19 @@ TEST_F(ElementTableTest, SortsNumbersByValue) {
   EXPECT_EQ(column(0), QStringList({"20", "7", "9", "3"}));
 }
 
+TEST_F(ElementTableTest, ColumnsGrowWithWhatComesUnlessTheUserSetThem) {
+  const int before = view()->columnWidth(1);
+  auto longer = rows();
+  longer[0].cells[1] = "convex, closed, and then some more";
+  table_.set_rows(longer);
+  EXPECT_GT(view()->columnWidth(1), before);
+  table_.set_rows(rows());  // nothing jumps back
+  EXPECT_GT(view()->columnWidth(1), before);
+  view()->setColumnWidth(1, 50);
+  table_.set_rows(longer);
+  EXPECT_EQ(view()->columnWidth(1), 50);
+}
+
 TEST_F(ElementTableTest, TheUsersSelectionIsToldAndTheProgramsIsNot) {
   click(1);
   click(3, Qt::ControlModifier);

@@ -230,7 +230,7 @@ class ElementTable::Private {
   Proxy* proxy = nullptr;
   std::unordered_set<std::uint32_t> chosen;  // Also those that the filter hides.
   bool showing = false;                      // A change of the selection is not the user's.
-  std::vector<bool> sized;                   // columns: once, when there is something in them
+  std::vector<int> fitted;                   // width each column was given; 0: nothing in it yet
   bool unseen = false;  // Selected while the table was hidden: to be scrolled to when it shows.
 
   std::uint32_t id_at(int proxy_row) const {
@@ -400,13 +400,21 @@ void ElementTable::set_rows(std::vector<ElementRow> rows) {
   });
   // What takes longer to work out comes into its columns later.
   const int columns = p_->model->columnCount(), looked_at = std::min(p_->model->rowCount(), 100);
-  p_->sized.resize(static_cast<std::size_t>(columns), false);
-  for (int column = 0; column < columns; ++column)
-    for (int row = 0; row < looked_at && !p_->sized[static_cast<std::size_t>(column)]; ++row)
-      if (!p_->model->index(row, column).data().toString().isEmpty()) {
-        p_->view->resizeColumnToContents(column);
-        p_->sized[static_cast<std::size_t>(column)] = true;
-      }
+  p_->fitted.resize(static_cast<std::size_t>(columns), 0);
+  for (int column = 0; column < columns; ++column) {
+    int& fitted = p_->fitted[static_cast<std::size_t>(column)];
+    bool fits = fitted != 0;
+    for (int row = 0; row < looked_at && !fits; ++row)
+      fits = !p_->model->index(row, column).data().toString().isEmpty();
+    if (!fits) continue;
+    // It grows with what comes, unless the user has set its width.
+    const int before = p_->view->columnWidth(column);
+    if (fitted != 0 && before != fitted) continue;
+    p_->view->resizeColumnToContents(column);
+    if (fitted != 0 && p_->view->columnWidth(column) < before)
+      p_->view->setColumnWidth(column, before);
+    fitted = p_->view->columnWidth(column);
+  }
   p_->view->settle();
   p_->view->verticalScrollBar()->setValue(down);
   p_->view->horizontalScrollBar()->setValue(across);

@@ -299,12 +299,13 @@ std::optional<std::size_t> HistogramChart::bin_at(int x, const QRect& plot) cons
 
 void HistogramChart::paint_bars(QPainter& painter, const QRect& plot, const QColor& colour) const {
   const auto [first, last] = decades();
+  // Between all bars or none: some of them a pixel wider would be parted and others not.
+  const int gap = plot.width() >= 6 * static_cast<int>(histogram.weights.size()) ? 1 : 0;
   for (std::size_t i = 0; i < histogram.weights.size(); ++i) {
     const double weight = histogram.weights[i];
     if (!(weight > 0.0) || !std::isfinite(weight)) continue;
     const int left = line_x(histogram.edges[i], plot);
-    int width = line_x(histogram.edges[i + 1], plot) - left;
-    width = std::max(width >= 5 ? width - 1 : width, 1);
+    const int width = std::max(line_x(histogram.edges[i + 1], plot) - left - gap, 1);
     const double share = std::clamp((std::log10(weight) - first) / (last - first), 0.0, 1.0);
     const int height = std::max(static_cast<int>(std::lround(share * (plot.height() - 1))), 1);
     painter.fillRect(left, plot.bottom() + 1 - height, width, height, colour);
