@@ -30,6 +30,22 @@ namespace {
 
 constexpr int most_recent = 10;
 
+/// Asks where to save what belongs to a part; empty: nowhere. The name proposed is the part's, the
+/// folder the one that was taken last for files of this kind, which `folder` names.
+QString choose_path(QWidget* parent, const Document& document, const QString& title,
+                    const QString& folder, const QString& ending, const QString& filter) {
+  QSettings settings;
+  const QFileInfo part(QString::fromStdString(document.scan_path));
+  QString path = QFileDialog::getSaveFileName(parent, title,
+                                              QDir(settings.value("folders/" + folder).toString())
+                                                  .filePath(part.completeBaseName() + "." + ending),
+                                              filter);
+  if (path.isEmpty()) return path;
+  if (QFileInfo(path).suffix().isEmpty()) path += "." + ending;
+  settings.setValue("folders/" + folder, QFileInfo(path).absolutePath());
+  return path;
+}
+
 }  // namespace
 
 void MainWindow::open(const QString& path) {
@@ -54,16 +70,9 @@ bool MainWindow::may_leave_session() {
 }
 
 void MainWindow::choose_session() {
-  QSettings settings;
-  const QString name =
-      QFileInfo(QString::fromStdString(session_->current().document.scan_path)).completeBaseName() +
-      ".jsonl";
-  QString path = QFileDialog::getSaveFileName(
-      this, tr("Save session"), QDir(settings.value("folders/sessions").toString()).filePath(name),
-      tr("Arris session (*.jsonl)"));
+  const QString path = choose_path(this, session_->current().document, tr("Save session"),
+                                   "sessions", "jsonl", tr("Arris session (*.jsonl)"));
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += ".jsonl";
-  settings.setValue("folders/sessions", QFileInfo(path).absolutePath());
   const Result<void> written =
       write_file_whole(path.toStdString(), journal_text(session_->history()));
   if (!written) {
@@ -145,16 +154,9 @@ void MainWindow::choose_picture() {
   PictureDialog dialog(picture_options_, stack_->size(), this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
-  QSettings settings;
-  const QString name =
-      QFileInfo(QString::fromStdString(session_->current().document.scan_path)).completeBaseName() +
-      ".png";
-  QString path = QFileDialog::getSaveFileName(
-      this, tr("Save picture"), QDir(settings.value("folders/pictures").toString()).filePath(name),
-      tr("PNG (*.png);;JPEG (*.jpg)"));
+  const QString path = choose_path(this, session_->current().document, tr("Save picture"),
+                                   "pictures", "png", tr("PNG (*.png);;JPEG (*.jpg)"));
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += ".png";
-  settings.setValue("folders/pictures", QFileInfo(path).absolutePath());
   QString error;
   if (save_picture(path, picture_options_, &error))
     statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
@@ -193,15 +195,15 @@ void MainWindow::show_load_report() {
   QString text = tr("%1: %2 with %3 and %4.")
                      .arg(QFileInfo(QString::fromStdString(report.file)).fileName(),
                           QString::fromStdString(report.format),
-                          counted(report.file_faces, tr("face"), tr("faces")),
-                          counted(report.file_vertices, tr("vertex"), tr("vertices")));
+                          shown_count(report.file_faces, tr("face"), tr("faces")),
+                          shown_count(report.file_vertices, tr("vertex"), tr("vertices")));
   text += "\n" + tr("The mesh has %1, %2, has %3 and Euler number %4.")
-                     .arg(counted(report.faces, tr("triangle"), tr("triangles")),
+                     .arg(shown_count(report.faces, tr("triangle"), tr("triangles")),
                           report.components == 1
                               ? tr("hangs together in one piece")
                               : tr("falls into %1 loose pieces")
                                     .arg(count_text(static_cast<qint64>(report.components))),
-                          counted(report.border_edges, tr("border edge"), tr("border edges")))
+                          shown_count(report.border_edges, tr("border edge"), tr("border edges")))
                      .arg(report.euler_number);
   QMessageBox box(QMessageBox::Information, tr("Load report"), text, QMessageBox::Ok, this);
   QString details;
