@@ -19,6 +19,7 @@
 #include "tests/bench/accuracy/save.h"
 #include "tests/bench/accuracy/summary.h"
 #include "tests/bench/accuracy/truth_folder.h"
+#include "tests/bench/accuracy/turned.h"
 
 namespace {
 
@@ -132,6 +133,9 @@ int main(int argc, char** argv) {
   bool only_leave_one_out = false;
   app.add_flag("--leave-one-out", only_leave_one_out,
                "Instead: what the constants of the default are worth on parts left out");
+  int turns = 0;
+  app.add_option("--turned", turns, "Each case so many times more, turned in space")
+      ->check(CLI::Range(0, 100));
   app.add_flag("--summary", summary_only, "Leave the table of single cases out");
   app.add_flag("--quiet", wishes.quiet, "Do not name each case on standard error");
   try {
@@ -169,6 +173,8 @@ int main(int argc, char** argv) {
   });
   if (cases.empty()) return complain("There is no case " + wishes.glob + ".", bad_usage);
 
+  std::vector<Case> turned = turned_cases(cases, turns);
+  std::ranges::move(turned, std::back_inserter(cases));
   if (only_leave_one_out) {
     const Result<Table> table = leave_one_out(cases, wishes.quiet);
     if (!table) return complain(table.error().message, bad_input);
