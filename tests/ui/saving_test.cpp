@@ -138,6 +138,13 @@ TEST_F(Saving, AsksOnlyTheFirstTimeAndTheTitleTellsWhatIsNotSaved) {
   EXPECT_FALSE(window->isWindowModified());
   EXPECT_TRUE(window->windowTitle().startsWith("mould.arris")) << qPrintable(window->windowTitle());
   EXPECT_EQ(hash_in(path), hash_of(document()));
+  // It opens from a snapshot that this user's key signed, which nobody else can read.
+  QFile key(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+            "/sessions/snapshot.key");
+  ASSERT_TRUE(key.open(QIODevice::ReadOnly));
+  EXPECT_EQ(key.permissions() & (QFile::ReadGroup | QFile::ReadOther), QFile::Permissions());
+  const auto session = testing::value_of(SessionFile::read(path.toStdString()));
+  EXPECT_TRUE(testing::value_of(session->snapshot(key.readAll().toStdString())));
 
   edit(40.0);
   EXPECT_TRUE(window->isWindowModified());

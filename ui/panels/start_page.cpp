@@ -34,8 +34,9 @@ QFont scaled(const QFont& font, double factor, bool bold) {
 /// A recent file: its picture where it has one, its name, its kind and its folder.
 class FileButton : public QPushButton {
  public:
-  FileButton(const QString& file, const QImage& picture, QWidget* parent)
-      : QPushButton(parent), picture_(picture) {
+  /// `room`: for a picture, whether there is one or not.
+  FileButton(const QString& file, const QImage& picture, bool room, QWidget* parent)
+      : QPushButton(parent), picture_(picture), room_(room) {
     const QFileInfo info(file);
     name_ = info.fileName().isEmpty() ? file : info.fileName();
     const bool is_session = file.endsWith(".arris") || file.endsWith(".jsonl");
@@ -74,8 +75,8 @@ class FileButton : public QPushButton {
       QRect place(QPoint(), size);
       place.moveCenter({inner.left() + width_of_picture / 2, inner.center().y()});
       painter.drawImage(place, picture_);
-      inner.setLeft(inner.left() + width_of_picture + 8);
     }
+    if (room_) inner.setLeft(inner.left() + width_of_picture + 8);
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(inner.left(), inner.top(), inner.width(), line, Qt::AlignVCenter,
                      fontMetrics().elidedText(name_, Qt::ElideMiddle, inner.width()));
@@ -88,6 +89,7 @@ class FileButton : public QPushButton {
   static constexpr int width_of_picture = 46;  // pixels
   QString name_, folder_;
   QImage picture_;
+  bool room_;
 };
 
 /// Number of a step in the tour, in a circle.
@@ -258,9 +260,10 @@ void StartPage::set_recent(const QStringList& files, const QList<QImage>& pictur
     button->deleteLater();
   }
   p_->files.clear();
+  const bool room = std::ranges::any_of(pictures, [](const QImage& p) { return !p.isNull(); });
   for (qsizetype k = 0; k < std::min<qsizetype>(files.size(), most_recent); ++k) {
     const QString& file = files[k];
-    auto* button = new FileButton(file, pictures.value(k), p_->page);
+    auto* button = new FileButton(file, pictures.value(k), room, p_->page);
     connect(button, &QPushButton::clicked, this, [this, file] { emit recent_wanted(file); });
     p_->recent->addWidget(button);
     p_->files.push_back(button);

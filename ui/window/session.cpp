@@ -165,23 +165,21 @@ std::unique_ptr<QLockFile> lock_of(const QString& recovery) {
 /// The user's own key, made when it is first wanted. Empty where it can be neither read nor kept:
 /// sessions open by running their operations then.
 std::string own_key() {
-  static const std::string key = [] {
-    QDir().mkpath(recovery_folder());
-    QFile file(recovery_folder() + "/snapshot.key");
-    if (file.open(QIODevice::ReadOnly)) {
-      const QByteArray kept = file.read(hash_key_size + 1);
-      if (kept.size() == hash_key_size) return kept.toStdString();
-      file.close();
-    }
-    QByteArray made(hash_key_size, Qt::Uninitialized);
-    for (char& byte : made) byte = static_cast<char>(QRandomGenerator::system()->generate());
-    QSaveFile kept(file.fileName());
-    if (!kept.open(QIODevice::WriteOnly)) return std::string();
-    kept.setPermissions(QFile::ReadOwner | QFile::WriteOwner);
-    kept.write(made);
-    return kept.commit() ? made.toStdString() : std::string();
-  }();
-  return key;
+  QDir().mkpath(recovery_folder());
+  const QString path = recovery_folder() + "/snapshot.key";
+  QFile file(path);
+  if (file.open(QIODevice::ReadOnly)) {
+    const QByteArray kept = file.read(hash_key_size + 1);
+    if (kept.size() == hash_key_size) return kept.toStdString();
+    file.close();
+  }
+  QByteArray made(hash_key_size, Qt::Uninitialized);
+  for (char& byte : made) byte = static_cast<char>(QRandomGenerator::system()->generate());
+  QSaveFile kept(path);
+  if (!kept.open(QIODevice::WriteOnly)) return {};
+  kept.setPermissions(QFile::ReadOwner | QFile::WriteOwner);
+  kept.write(made);
+  return kept.commit() ? made.toStdString() : std::string();
 }
 
 std::vector<std::string> to_std(const QStringList& texts) {
