@@ -476,6 +476,34 @@ TEST_F(Saving, ADamagedSessionIsToldAndTheOpenPartStays) {
   EXPECT_EQ(document().mesh, before);
 }
 
+TEST_F(Saving, ExportIsNamedByThePartAndAsksBeforeItReplaces) {
+  open_sample();
+  edit(30.0);
+  const auto lines = [&] {
+    QFile file(folder.filePath("sample_mould_lines.obj"));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+  };
+  const auto export_again = [&] {
+    choose(folder.path());
+    press(*window, QKeySequence("Ctrl+E"));
+  };
+  export_again();
+  const QByteArray first = lines();
+  EXPECT_FALSE(first.isEmpty());
+  for (const char* name : {"boundaries.obj", "scan_partitions.ply", "operations.jsonl"})
+    EXPECT_TRUE(QFile::exists(folder.filePath(QString("sample_mould_") + name))) << name;
+  EXPECT_TRUE(window->isWindowModified()) << "results are no session";
+
+  edit(60.0);
+  answer("Cancel");
+  export_again();
+  EXPECT_TRUE(said.last().contains("sample_mould_lines.obj")) << qPrintable(said.last());
+  EXPECT_EQ(lines(), first);
+  answer("Replace");
+  export_again();
+  EXPECT_NE(lines(), first);
+}
+
 TEST_F(Saving, RecentSessionsAreToldFromScansAndHaveAPicture) {
   open_sample();
   edit(30.0);
