@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -21,7 +23,8 @@ constexpr float never = 1e9F;
 struct AreaBorder {
   std::array<std::uint32_t, 2> areas{no_id, no_id};  // on its first and second side, as begun with
   BorderSums sums;
-  float line = 0.0F;                         // length of line between the two
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // sum of its places, over its length
+  float line = 0.0F;                                 // length of line between the two
   float known = -1.0F;                       // the cost as last worked out; negative: not known
   std::array<std::uint32_t, 2> known_for{};  // the states of the areas then, in any order
   const std::vector<std::uint32_t>* parent = nullptr;
@@ -34,6 +37,7 @@ struct AreaBorder {
   void absorb(const AreaBorder& other) {
     const bool turned = root(0) == other.root(1) || root(1) == other.root(0);
     sums.add(turned ? other.sums.turned() : other.sums);
+    middle += other.middle;
     line += other.line;
     known = -1.0F;
   }
@@ -119,19 +123,39 @@ class AreaJoining {
     const double misfit = fit_of(both).misfit;
     const double na = static_cast<double>(voting_[a]) / grain_,
                  nb = static_cast<double>(voting_[b]) / grain_;
-    const auto rise = static_cast<float>(price_of(misfit, na + nb) - price_of(fits_[a].misfit, na) -
-                                         price_of(fits_[b].misfit, nb));
+    const double apart = price_of(fits_[a].misfit, na) + price_of(fits_[b].misfit, nb);
+    const auto rise = static_cast<float>(price_of(misfit, na + nb) - apart);
     const auto smaller =
         static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
-    const float by_surface =
-        misfit < static_cast<double>(options_.free) && options_.surfaces
-            ? std::max(0.0F, rise) / (options_.rise + options_.rise_each * smaller +
-                                      options_.rise_border * border.sums.length)
-            : never;
+    const float allowed_rise =
+        options_.rise + options_.rise_each * smaller + options_.rise_border * border.sums.length;
+    const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
+                                 ? std::max(0.0F, rise) / allowed_rise
+                                 : never;
     const float by_kink = std::max(
         cost_by_kink(border, a, b),
         std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
-    return std::min(by_surface, by_kink);
+    float by_continuation = never;
+    if (const double tear = tear_at(border, a, b); tear < 1e9) {
+      const double as_chain = price_of(judge_surface(both, noise_, chain_of(a, b)).misfit, na + nb);
+      by_continuation =
+          std::max(static_cast<float>(tear),
+                   static_cast<float>(std::max(0.0, as_chain - apart)) / allowed_rise);
+    }
+    return std::min({by_surface, by_kink, by_continuation});
+  }
+  /// How badly the surfaces of two areas continue one another over their border.
+  double tear_at(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    const auto free = static_cast<double>(options_.free);
+    if (!options_.continuations || fits_[a].misfit >= free || fits_[b].misfit >= free)
+      return std::numeric_limits<double>::infinity();
+    return tear_between(fits_[a].surface, fits_[b].surface,
+                        border.middle / static_cast<double>(border.sums.length),
+                        options_.continuation);
+  }
+  Surface chain_of(std::uint32_t a, std::uint32_t b) const {
+    return continued(fits_[a].surface, static_cast<double>(voting_[a]), fits_[b].surface,
+                     static_cast<double>(voting_[b]), options_.continuation);
   }
   /// By the kink between them.
   float cost_by_kink(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
@@ -159,7 +183,11 @@ class AreaJoining {
     };
     for (std::size_t k = 0; k < places.edges.size(); ++k) {
       const auto [f, g] = mesh_.edge_faces(places.edges[k]);
-      border_of(labels[f], labels[g]).sums.add(places.places[k]);
+      AreaBorder& border = border_of(labels[f], labels[g]);
+      border.sums.add(places.places[k]);
+      const auto [from, to] = mesh_.edge(places.edges[k]);
+      border.middle += 0.5 * static_cast<double>(places.places[k].length) *
+                       (table_.points[from] + table_.points[to]).cast<double>();
     }
     if (!lines_.edges.empty())
       for (EdgeId e = 0; e < mesh_.edge_count(); ++e) {
@@ -179,8 +207,8 @@ class AreaJoining {
         [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
           return known_cost(border, a, b);
         },
-        [&](const auto& join, const AreaBorder&) {
-          this->join(join.into, join.gone, join.height);
+        [&](const auto& join, const AreaBorder& border) {
+          this->join(join.into, join.gone, join.height, border);
         });
   }
 
@@ -195,11 +223,16 @@ class AreaJoining {
     return border.known;
   }
 
-  void join(std::uint32_t into, std::uint32_t gone, float height) {
+  void join(std::uint32_t into, std::uint32_t gone, float height, const AreaBorder& border) {
     height_ = std::max(height_, height);
     parent_[gone] = into;
     // What the larger of the two is stays as good as it was while little comes to it.
     const std::uint32_t larger = voting_[into] >= voting_[gone] ? into : gone;
+    std::optional<Surface> chain;
+    if (tear_at(border, into, gone) <= static_cast<double>(std::max(height, 1.0F)))
+      chain = chain_of(into, gone);
+    else if (fits_[larger].surface.parts)
+      chain = fits_[larger].surface;
     state_[into] = state_[larger];
     state_area_[into] = state_area_[larger];
     area_[into] += area_[gone];
@@ -213,6 +246,10 @@ class AreaJoining {
     samples_[gone] = {};
     mine = thinned(std::move(mine), options_.samples);
     fits_[into] = fit_of(mine);
+    if (chain)
+      if (const FittedSurface as_chain = judge_surface(mine, noise_, *chain);
+          as_chain.misfit < fits_[into].misfit)
+        fits_[into] = as_chain;
     joins_.push_back({into, gone, height_, fits_[into]});
   }
 

@@ -7,6 +7,7 @@
 #include "core/base/context.h"
 #include "core/mesh/mesh.h"
 #include "core/partitions/border_kink.h"
+#include "core/partitions/continuation.h"
 #include "core/partitions/surface_fit.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/lines.h"
@@ -37,7 +38,9 @@ struct AreaJoiningOptions {
   float line_share = 0.5F;  // of a border that is a line: from here on nothing is joined over it
   int rounds = 5;           // up to the height 1, measured again after each
   bool surfaces = true;     // joins by fitted surfaces
+  bool continuations = true;  // joins surfaces that run on into one another
   BorderKinkOptions border;
+  ContinuationOptions continuation;
 };
 
 /// `gone` becomes part of `into`, which is of `surface` then, where areas are joined up to

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
 
 #include "core/base/number_text.h"
 #include "core/base/parallel.h"
 #include "core/mesh/geometry.h"
+#include "core/partitions/continuation.h"
 #include "core/simplification/noise.h"
 
 namespace arris {
@@ -108,8 +110,12 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.refined = most_fitted;
         options.steps = 12;
         options.near = options.most;
-        const FittedSurface fit = fit_surface(samples, noise, options);
-        if (fit.misfit > most_misfit || says_nothing(fit.surface)) return;
+        FittedSurface fit = fit_surface(samples, noise, options);
+        if (fit.misfit > most_misfit || says_nothing(fit.surface)) {
+          const std::optional<FittedSurface> blend = fit_blend(samples, noise, most_misfit);
+          if (!blend) return;
+          fit = *blend;
+        }
         double sum = 0.0;
         std::size_t within = 0;
         for (const VertexId v : vertices) {
@@ -121,10 +127,7 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         }
         fitted.mean_deviation = sum / static_cast<double>(vertices.size());
         fitted.within = static_cast<double>(within) / static_cast<double>(vertices.size());
-        fitted.surface = fit.surface;
-        fitted.surface.point = middle + unit * fit.surface.point;
-        fitted.surface.radius *= unit;
-        fitted.surface.tube *= unit;
+        fitted.surface = fit.surface.placed(middle, unit);
       },
       1);
   if (context.cancelled()) return cancelled();
@@ -141,6 +144,8 @@ std::string size_text(const Surface& surface) {
       return "half angle " + number_text(surface.half_angle * 180.0 / std::numbers::pi, 3) + "°";
     case SurfaceType::torus:
       return "R " + text(surface.radius) + ", r " + text(surface.tube) + " mm";
+    case SurfaceType::blend:
+      return "r " + text(surface.tube) + " mm";
     default:
       return "";
   }

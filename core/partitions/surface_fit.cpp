@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -83,8 +84,13 @@ class Fitting {
   FittedSurface from(const Surface& start) {
     if (start.type == SurfaceType::plane)
       plane();
-    else if (start.type != SurfaceType::free)
+    else if (start.type < SurfaceType::blend)
       try_out(start);
+    return best_;
+  }
+
+  FittedSurface as_it_is(const Surface& surface) {
+    judge(surface);
     return best_;
   }
 
@@ -105,7 +111,7 @@ class Fitting {
       const double a = turn / (2.0 * noise_.angle * noise_.angle);
       sum += s.weight * 0.5 * (std::min(d * d, options_.most) + std::min(a, options_.most));
     }
-    static constexpr std::array<double, 6> parameters{3, 4, 5, 6, 7, 6};
+    static constexpr std::array<double, 8> parameters{3, 4, 5, 6, 7, 8, 8, 6};
     // Each parameter has to be worth it (Bayesian information criterion), over the noise there is.
     const double n = static_cast<double>(samples_.size());
     const double misfit =
@@ -432,11 +438,16 @@ class Fitting {
   FittedSurface best_;
 };
 
+const Surface& nearest_part(const std::vector<Surface>& parts, const Vector3d& p) {
+  return *std::ranges::min_element(
+      parts, {}, [&](const Surface& part) { return std::abs(part.at(p).distance); });
+}
+
 }  // namespace
 
 std::string_view name_of(SurfaceType type) {
-  static constexpr std::array<std::string_view, 6> names{"plane", "sphere", "cylinder",
-                                                         "cone",  "torus",  "free"};
+  static constexpr std::array<std::string_view, 8> names{"plane", "sphere", "cylinder", "cone",
+                                                         "torus", "blend",  "chain",    "free"};
   return names[static_cast<std::size_t>(type)];
 }
 
@@ -473,6 +484,9 @@ Surface::At Surface::at(const Vector3d& p) const {
       const Vector3d normal = reach > 0.0 ? Vector3d(from_tube / reach) : out;
       return {side * (reach - tube), side * normal};
     }
+    case SurfaceType::blend:
+    case SurfaceType::chain:
+      return nearest_part(*parts, p).at(p);
     case SurfaceType::free:
       break;
   }
@@ -486,6 +500,56 @@ Surface::At Surface::at(const Vector3d& p) const {
   return {(d.dot(axis) - height) * normal.dot(axis), normal};
 }
 
+Matrix3d Surface::bend_at(const Vector3d& p) const {
+  if (parts) return nearest_part(*parts, p).bend_at(p);
+  const Vector3d d = p - point;
+  const double height = d.dot(axis);
+  const Vector3d across = d - height * axis;
+  const double length = across.norm();
+  switch (type) {
+    case SurfaceType::sphere: {
+      const double reach = d.norm();
+      if (!(reach > 0.0)) break;
+      return side / reach * (Matrix3d::Identity() - d * d.transpose() / (reach * reach));
+    }
+    case SurfaceType::cylinder:
+    case SurfaceType::cone: {
+      if (!(length > 0.0)) break;
+      const Vector3d round = axis.cross(across / length);
+      const double slant = type == SurfaceType::cone ? std::cos(half_angle) : 1.0;
+      return side * slant / length * round * round.transpose();
+    }
+    case SurfaceType::torus: {
+      if (!(length > 0.0)) break;
+      const Vector3d out = across / length, round = axis.cross(out);
+      const Vector3d from_tube = (length - radius) * out + height * axis;
+      const double reach = from_tube.norm();
+      if (!(reach > 0.0)) break;
+      const Vector3d along = round.cross(from_tube / reach);
+      return side * (along * along.transpose() / reach +
+                     (length - radius) / reach / length * round * round.transpose());
+    }
+    default:
+      break;
+  }
+  return Matrix3d::Zero();
+}
+
+Surface Surface::placed(const Vector3d& origin, double unit) const {
+  Surface result = *this;
+  result.point = origin + unit * point;
+  result.radius *= unit;
+  result.tube *= unit;
+  result.heights[0] *= unit;
+  result.heights.tail<3>() /= unit;
+  if (parts) {
+    std::vector<Surface> moved;
+    for (const Surface& part : *parts) moved.push_back(part.placed(origin, unit));
+    result.parts = std::make_shared<const std::vector<Surface>>(std::move(moved));
+  }
+  return result;
+}
+
 FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                           const SurfaceFitOptions& options) {
   return Fitting(samples, noise, options).best();
@@ -494,6 +558,11 @@ FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceN
 FittedSurface refit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                             const Surface& start, const SurfaceFitOptions& options) {
   return Fitting(samples, noise, options).from(start);
+}
+
+FittedSurface judge_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                            const Surface& surface, const SurfaceFitOptions& options) {
+  return Fitting(samples, noise, options).as_it_is(surface);
 }
 
 FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace arris {
 
-/// What an area may be: the surfaces of CAD, the simplest first, or none of them.
-enum class SurfaceType : std::uint8_t { plane, sphere, cylinder, cone, torus, free };
+/// What an area may be: the surfaces of CAD, the simplest first; several of them that continue one
+/// another, as a blend of one radius along any curve or as some other chain; or none of them.
+enum class SurfaceType : std::uint8_t { plane, sphere, cylinder, cone, torus, blend, chain, free };
 
 std::string_view name_of(SurfaceType type);  ///< "plane", ..., "free".
 
@@ -36,11 +39,13 @@ struct Surface {
   /// to (normal . axis = sin(half_angle)); free: direction of heights.
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   double radius = 0.0;      ///< Of sphere and cylinder; of a torus, of its middle circle.
-  double tube = 0.0;        ///< Of a torus: radius of the tube.
+  double tube = 0.0;        ///< Of a torus or blend: radius of the tube.
   double half_angle = 0.0;  ///< Of a cone: between axis and surface, 0 to pi / 2.
   double side = 1.0;        ///< 1 where normals point away from axis or centre, -1: towards it.
   /// Of a free surface: height over the tangent directions x, y, x^2, xy, y^2.
   Eigen::Matrix<double, 6, 1> heights = Eigen::Matrix<double, 6, 1>::Zero();
+  /// Of a blend or chain: the surfaces that it is made of, end to end.
+  std::shared_ptr<const std::vector<Surface>> parts;
 
   /// Signed distance of a point along the surface's normal there, and that normal.
   struct At {
@@ -48,6 +53,11 @@ struct Surface {
     Eigen::Vector3d normal;
   };
   At at(const Eigen::Vector3d& p) const;
+  /// How that normal turns as p moves, d normal = bend d p: symmetric, its eigenvalues across the
+  /// normal are the curvatures of the parallel surface through p. Of planes and free ones zero.
+  Eigen::Matrix3d bend_at(const Eigen::Vector3d& p) const;
+  /// The same surface where points p are at origin + unit * p.
+  Surface placed(const Eigen::Vector3d& origin, double unit) const;
 };
 
 struct FittedSurface {
@@ -74,6 +84,10 @@ FittedSurface fit_surface(std::span<const SurfaceSample> samples, const SurfaceN
 /// The surface of the same type as `start`, which is near already; misfit infinite for free ones.
 FittedSurface refit_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                             const Surface& start, const SurfaceFitOptions& options = {});
+
+/// How well a surface explains samples, as it is.
+FittedSurface judge_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
+                            const Surface& surface, const SurfaceFitOptions& options = {});
 
 /// A height field of degree two over the mean plane; misfit infinite where the samples turn too far
 /// for one.

@@ -106,7 +106,7 @@ Result<std::vector<TangentLine>> find_tangent_lines(const Mesh& mesh, const Part
   std::unordered_map<std::uint32_t, double> radii;  // the tighter one of each fitted surface
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const Surface& surface = surfaces[k].surface;
-    const double radius = surface.type == SurfaceType::torus ? surface.tube : surface.radius;
+    const double radius = surface.tube > 0.0 ? surface.tube : surface.radius;
     if (radius > 0.0) radii[partitions.partitions[k]->id] = radius;
   }
   const FaceTable table(mesh);

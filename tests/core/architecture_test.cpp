@@ -19,21 +19,29 @@ struct Include {
   std::string header;
 };
 
-/// All #include lines below a folder of the repository.
-std::vector<Include> includes_below(const std::string& folder) {
-  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  std::vector<Include> includes;
+/// Shows each line of the sources and headers below a folder of the repository: visit(file, number,
+/// line).
+template <class Visit>
+void for_each_line(const std::string& folder, const Visit& visit) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            std::filesystem::path(ARRIS_SOURCE_DIR) / folder)) {
     const std::string ending = entry.path().extension().string();
     if (ending != ".h" && ending != ".cpp") continue;
     std::ifstream file(entry.path());
     std::string line;
-    std::smatch match;
     for (std::size_t number = 1; std::getline(file, line); ++number)
-      if (std::regex_search(line, match, pattern))
-        includes.push_back({entry.path(), number, match[1]});
+      visit(entry.path(), number, line);
   }
+}
+
+/// All #include lines below a folder of the repository.
+std::vector<Include> includes_below(const std::string& folder) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for_each_line(folder, [&](const auto& file, std::size_t number, const std::string& line) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern)) includes.push_back({file, number, match[1]});
+  });
   return includes;
 }
 
@@ -84,22 +92,15 @@ std::map<std::string, std::vector<std::string>> places_of_types(
     const std::vector<std::string>& folders) {
   static const std::regex pattern(R"(^(class|struct|enum class) (\w+)( final)?( :[^:].*| \{.*)$)");
   std::map<std::string, std::vector<std::string>> places;
+  bool unnamed = false;
   for (const std::string& folder : folders)
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(
-             std::filesystem::path(ARRIS_SOURCE_DIR) / folder)) {
-      const std::string ending = entry.path().extension().string();
-      if (ending != ".h" && ending != ".cpp") continue;
-      std::ifstream file(entry.path());
-      std::string line;
+    for_each_line(folder, [&](const auto& file, std::size_t number, const std::string& line) {
+      if (number == 1 || line == "}  // namespace") unnamed = false;
+      if (line == "namespace {") unnamed = true;
       std::smatch match;
-      bool unnamed = false;
-      for (std::size_t number = 1; std::getline(file, line); ++number) {
-        if (line == "namespace {") unnamed = true;
-        if (line == "}  // namespace") unnamed = false;
-        if (!unnamed && std::regex_match(line, match, pattern))
-          places[match[2]].push_back(entry.path().string() + ":" + std::to_string(number));
-      }
-    }
+      if (!unnamed && std::regex_match(line, match, pattern))
+        places[match[2]].push_back(file.string() + ":" + std::to_string(number));
+    });
   return places;
 }
 
@@ -121,16 +122,12 @@ std::map<std::string, std::string> functions_below(const std::string& folder) {
       R"re(^(?!return |using |template|class |struct |enum |namespace|friend |#|/|\}))re"
       R"re([\w:<>,&* ]+[ &*](\w+)\(.*$)re");
   std::map<std::string, std::string> places;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           std::filesystem::path(ARRIS_SOURCE_DIR) / folder)) {
-    if (entry.path().extension() != ".h") continue;
-    std::ifstream file(entry.path());
-    std::string line;
+  for_each_line(folder, [&](const auto& file, std::size_t, const std::string& line) {
     std::smatch match;
-    while (std::getline(file, line))
-      if (!line.starts_with(' ') && std::regex_match(line, match, pattern))
-        places[match[1]] = entry.path().string();
-  }
+    if (file.extension() == ".h" && !line.starts_with(' ') &&
+        std::regex_match(line, match, pattern))
+      places[match[1]] = file.string();
+  });
   return places;
 }
 

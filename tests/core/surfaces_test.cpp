@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/base/random.h"
@@ -15,6 +16,7 @@
 #include "core/document/history.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/area_tree.h"
+#include "core/partitions/continuation.h"
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/surface_fit.h"
 #include "tests/support/documents.h"
@@ -46,6 +48,11 @@ Triangles bent_strip(double radius, double length, double h) {
   });
 }
 
+Point centre_of(const Mesh& mesh, FaceId f) {
+  const Triangle& t = mesh.triangle(f);
+  return (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])) / 3.0;
+}
+
 /// Share of the area of the true patch `in` that its main partition covers, and of that partition
 /// what lies in the patch: the smaller of both.
 double agreement(const Document& document, const std::function<bool(const Point&)>& in) {
@@ -53,11 +60,9 @@ double agreement(const Document& document, const std::function<bool(const Point&
   double all = 0.0;
   std::map<std::uint32_t, double> shared, own;
   for (FaceId f = 0; f < mesh.face_count(); ++f) {
-    const Triangle& t = mesh.triangle(f);
-    const Point centre = (mesh.point(t[0]) + mesh.point(t[1]) + mesh.point(t[2])) / 3.0;
     const double area = face_area(mesh, f);
     own[document.partitions.labels[f]] += area;
-    if (!in(centre)) continue;
+    if (!in(centre_of(mesh, f))) continue;
     all += area;
     shared[document.partitions.labels[f]] += area;
   }
@@ -149,10 +154,12 @@ TEST(SurfaceFit, TellsThePlainSurfacesApartAndMeasuresThem) {
 }
 
 TEST(SurfaceFit, DistanceAndNormalAreThoseOfTheSurface) {
-  // The normal is the gradient of the distance, whatever the surface.
-  std::vector<Surface> surfaces(6);
+  // The normal is the gradient of the distance, and turns as bend_at() says, whatever the surface.
+  const std::array types{SurfaceType::plane, SurfaceType::sphere, SurfaceType::cylinder,
+                         SurfaceType::cone,  SurfaceType::torus,  SurfaceType::free};
+  std::vector<Surface> surfaces(types.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    surfaces[k].type = static_cast<SurfaceType>(k);
+    surfaces[k].type = types[k];
     surfaces[k].point = {1.0, 2.0, 3.0};
     surfaces[k].axis = Vector3d(1.0, 1.0, 2.0).normalized();
     surfaces[k].radius = 9.0;
@@ -177,8 +184,97 @@ TEST(SurfaceFit, DistanceAndNormalAreThoseOfTheSurface) {
         const double slope =
             (surface.at(p + offset).distance - surface.at(p - offset).distance) / (2.0 * step);
         EXPECT_NEAR(slope, at.normal[c], 2e-3) << name_of(surface.type);
+        if (surface.type == SurfaceType::free) continue;
+        const Vector3d turn =
+            (surface.at(p + offset).normal - surface.at(p - offset).normal) / (2.0 * step);
+        EXPECT_LT((turn - surface.bend_at(p).col(c)).norm(), 1e-5) << name_of(surface.type);
       }
     }
+}
+
+TEST(SurfaceFit, ASurfacePlacedElsewhereIsTheSameSurface) {
+  const Vector3d origin(4.0, -3.0, 2.0);
+  constexpr double unit = 2.5;
+  Surface cylinder, torus;
+  cylinder.type = SurfaceType::cylinder;
+  cylinder.radius = 3.0;
+  torus.type = SurfaceType::torus;
+  torus.point = {1.0, 2.0, 0.5};
+  torus.radius = 9.0;
+  torus.tube = 3.1;
+  Surface free;
+  free.heights << 0.3, 0.02, -0.03, 0.01, 0.004, -0.006;
+  Random random(8);
+  for (const Surface& surface : {cylinder, torus, free, continued(cylinder, 1.0, torus, 2.0)})
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d p = 4.0 * Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+      const Surface::At here = surface.at(p),
+                        there = surface.placed(origin, unit).at(origin + unit * p);
+      EXPECT_NEAR(there.distance, unit * here.distance, 1e-9) << name_of(surface.type);
+      EXPECT_LT((there.normal - here.normal).norm(), 1e-9) << name_of(surface.type);
+    }
+}
+
+TEST(SurfaceFit, TubesOfOneRadiusContinueOneAnother) {
+  // A straight fillet and the ring that it runs into, where they touch and elsewhere.
+  Surface straight, ring;
+  straight.type = SurfaceType::cylinder;
+  straight.axis = Vector3d::UnitX();
+  straight.radius = 3.0;
+  ring.type = SurfaceType::torus;
+  ring.point = {0.0, 60.0, 0.0};
+  ring.radius = 60.0;
+  ring.tube = 3.0;
+  const Vector3d meet(0.0, -3.0, 0.0);
+  EXPECT_LT(tear_between(straight, ring, meet), 0.5);
+  EXPECT_LT(tear_between(ring, straight, meet), 0.5);
+  EXPECT_GT(tear_between(straight, ring, meet + Vector3d(40.0, 0.0, 0.0)), 1.0) << "turned away";
+  Surface tight = ring;
+  tight.point.y() = tight.radius = 8.0;
+  EXPECT_GT(tear_between(straight, tight, meet), 1.0) << "bent at once";
+  Surface hollow = straight;
+  hollow.side = -1.0;
+  EXPECT_GT(tear_between(hollow, ring, meet), 1.0) << "to the other side";
+  Surface wide = straight;
+  wide.radius = 4.5;
+  wide.point.z() = -1.5;
+  EXPECT_GT(tear_between(wide, ring, meet), 1.0) << "of another radius";
+  Surface flat;
+  flat.type = SurfaceType::plane;
+  EXPECT_GT(tear_between(flat, flat, meet), 1e9) << "planes are joined as one surface or not";
+}
+
+TEST(SurfaceFit, ABlendAlongACurveHasOneRadius) {
+  // Rolled along a curve that bends to and fro: no torus explains it.
+  const SurfaceNoise noise{0.05, 2.0 * degree};
+  for (const double side : {1.0, -1.0}) {
+    const auto at = [&](double u, double v) {
+      const double x = 80.0 * u, y = 8.0 * std::sin(x / 12.0),
+                   slope = 8.0 / 12.0 * std::cos(x / 12.0);
+      const Vector3d along = Vector3d(1.0, slope, 0.0).normalized();
+      const double a = 1.4 * v;
+      const Vector3d n =
+          std::cos(a) * Vector3d::UnitZ() + std::sin(a) * along.cross(Vector3d::UnitZ());
+      return SurfaceSample{Vector3d(x, y, 0.0) + 4.0 * n, side * n};
+    };
+    const std::vector<SurfaceSample> samples = samples_of(at, 24, noise, 3);
+    EXPECT_GT(fit_surface(samples, noise).misfit, 3.0);
+    const std::optional<FittedSurface> blend = fit_blend(samples, noise, 3.0);
+    ASSERT_TRUE(blend);
+    EXPECT_EQ(blend->surface.type, SurfaceType::blend);
+    EXPECT_EQ(blend->surface.side, side);
+    EXPECT_NEAR(blend->surface.tube, 4.0, 0.15);
+    EXPECT_EQ(size_text(blend->surface).substr(0, 2), "r ");
+  }
+  // A saddle is none.
+  EXPECT_FALSE(fit_blend(samples_of(
+                             [](double u, double v) {
+                               const double x = 30.0 * (u - 0.5), y = 30.0 * (v - 0.5);
+                               return SurfaceSample{{x, y, (x * x - y * y) / 20.0},
+                                                    Vector3d(-x, y, 10.0).normalized()};
+                             },
+                             24, noise, 4),
+                         noise, 3.0));
 }
 
 TEST(PartitionSurfaces, AreExactOnScansWithNoise) {
@@ -264,6 +360,59 @@ TEST(FindPartitions, APlaneEndsWhereACylinderBegins) {
       EXPECT_EQ(types, (std::multiset{SurfaceType::plane, SurfaceType::cylinder}))
           << radius << " " << noise;
     }
+}
+
+/// A floor and a wall that runs along a curve, bent to and fro by up to `bend`, with a fillet of
+/// `radius` between them: the curve is where the fillet begins.
+Triangles filleted_wall(double radius, double bend, double length, double h) {
+  struct Place {
+    Point at;
+    double heading;
+  };
+  constexpr int steps = 4000;
+  std::vector<Place> curve{{Point::Zero(), 0.0}};
+  for (int k = 0; k < steps; ++k) {
+    const double s = (k + 0.5) / steps, step = length / steps;
+    Place next = curve.back();
+    next.heading += step * bend * std::sin(2.0 * std::numbers::pi * s);
+    next.at += step * Point(std::cos(next.heading), std::sin(next.heading), 0.0);
+    curve.push_back(next);
+  }
+  return shaped_lattice(length, h, [=](double x, double y) {
+    const auto [at, heading] =
+        curve[static_cast<std::size_t>(std::lround(std::clamp(x / length, 0.0, 1.0) * steps))];
+    const Point inward(-std::sin(heading), std::cos(heading), 0.0);
+    const double way = y - 0.25 * length, arc = radius * std::numbers::pi / 2.0;
+    const double turn = std::clamp(way / radius, 0.0, std::numbers::pi / 2.0);
+    const double in = std::min(way, 0.0) + radius * std::sin(turn),
+                 up = radius * (1.0 - std::cos(turn)) + std::clamp(way - arc, 0.0, 0.25 * length);
+    return Point(at + in * inward + up * Point::UnitZ());
+  });
+}
+
+TEST(FindPartitions, AFilletAlongACurveIsOneBlend) {
+  constexpr double h = 0.7, radius = 4.0 * h;
+  for (const double noise : {0.0, 0.05, 0.1}) {
+    Triangles part = noisy(filleted_wall(radius, 0.025 / h, 80.0 * h, h), noise, 5);
+    const Document document = found(part);
+    const Mesh& mesh = *document.mesh;
+    const auto in_fillet = [&](const Point& p) {
+      return p.z() > 0.05 * radius && p.z() < 0.95 * radius;
+    };
+    EXPECT_GT(agreement(document, in_fillet), 0.7) << noise;
+    // Its partition, and what the table says of it.
+    std::map<std::uint32_t, double> areas;
+    for (FaceId f = 0; f < mesh.face_count(); ++f)
+      if (in_fillet(centre_of(mesh, f))) areas[document.partitions.labels[f]] += face_area(mesh, f);
+    const std::uint32_t fillet =
+        std::ranges::max_element(areas, {}, [](const auto& entry) { return entry.second; })->first;
+    const std::vector<PartitionSurface> surfaces = surfaces_of(document);
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (document.partitions.partitions[k]->id == fillet) {
+        EXPECT_EQ(surfaces[k].surface.type, SurfaceType::blend) << noise;
+        EXPECT_NEAR(surfaces[k].surface.tube, radius, 0.06 * radius) << noise;
+      }
+  }
 }
 
 TEST(FindPartitions, SidesBetweenLinesAreOneEach) {

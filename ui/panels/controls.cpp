@@ -78,7 +78,7 @@ QString count_text(qint64 count) {
   return QLocale(QLocale::English, QLocale::UnitedStates).toString(count);
 }
 
-QString counted(std::size_t count, const QString& one, const QString& many) {
+QString shown_count(std::size_t count, const QString& one, const QString& many) {
   return count_text(static_cast<qint64>(count)) + " " + (count == 1 ? one : many);
 }
 

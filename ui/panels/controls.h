@@ -24,7 +24,7 @@ QString percent_text(double share);
 /// A count for reading: "20,000".
 QString count_text(qint64 count);
 /// "1 face", "20,000 faces".
-QString counted(std::size_t count, const QString& one, const QString& many);
+QString shown_count(std::size_t count, const QString& one, const QString& many);
 /// Reads "12.5", "-1e-3". Nothing for a comma (it is a group separator to one reader and a decimal
 /// point to the other), for trailing letters, NaN or infinity.
 std::optional<double> typed_number(const QString& text);

@@ -59,9 +59,10 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
       {tr("Partition"), tr("Surface"), tr("Size"), tr("Deviation mm"), tr("Largest mm"),
        tr("Within %"), tr("Sides"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Interval")},
       {tr("Id of the partition; it keeps it while thresholds move"),
-       tr("The surface that explains it: plane, sphere, cylinder, cone, torus, or free: none of "
-          "them"),
-       tr("Radius or half angle of that surface; of a torus both radii"),
+       tr("The surface that explains it: plane, sphere, cylinder, cone, torus, blend (of one "
+          "radius along a curve), or free: none of them"),
+       tr("Radius or half angle of that surface; of a torus both radii, of a blend that of the "
+          "ball that rolls along it"),
        tr("Mean distance of its vertices from that surface"),
        tr("Largest distance of its vertices from that surface"),
        tr("Share of its vertices within three times the noise of the scan"),

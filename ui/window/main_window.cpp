@@ -342,12 +342,12 @@ void MainWindow::refresh_counts() {
     counts_label_->setText({});
     return;
   }
-  QString text = counted(document.mesh->face_count(), tr("face"), tr("faces"));
+  QString text = shown_count(document.mesh->face_count(), tr("face"), tr("faces"));
   if (document.find_sharp_lines)
-    text += "  ·  " + counted(document.lines.lines.size(), tr("line"), tr("lines"));
+    text += "  ·  " + shown_count(document.lines.lines.size(), tr("line"), tr("lines"));
   if (document.find_partitions)
     text += "  ·  " +
-            counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) +
+            shown_count(document.partitions.partitions.size(), tr("partition"), tr("partitions")) +
             (document.find_partitions->out_of_date ? tr(" (out of date)") : QString());
   if (elements_->hides_any()) text += "  ·  " + tr("some hidden (Shift+H shows all)");
   counts_label_->setText(text);

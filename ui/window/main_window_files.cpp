@@ -32,7 +32,20 @@ namespace {
 
 constexpr int most_recent = 10;
 
-QString session_filter() { return MainWindow::tr("Arris session (*.arris)"); }
+/// Asks where to save; empty: nowhere. The folder that is taken is remembered for files of this
+/// kind.
+QString choose_path(QWidget* parent, const QString& title, const QFileInfo& proposed,
+                    const QString& kind, const QString& filter) {
+  QFileDialog dialog(parent, title, proposed.absolutePath(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  // Not added afterwards: the question whether to replace a file is about its whole name.
+  dialog.setDefaultSuffix(proposed.suffix());
+  dialog.selectFile(proposed.fileName());
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
+  const QString path = dialog.selectedFiles().first();
+  QSettings().setValue("folders/" + kind, QFileInfo(path).absolutePath());
+  return path;
+}
 
 }  // namespace
 
@@ -148,10 +161,9 @@ bool MainWindow::save() {
 }
 
 bool MainWindow::save_as() {
-  QSettings settings;
   QFileInfo suggested(session_->file());
   if (session_->file().isEmpty()) {
-    QString folder = settings.value("folders/sessions").toString();
+    QString folder = QSettings().value("folders/sessions").toString();
     // Beside its scan, but not where the sample lies, which nobody looks into.
     const QFileInfo scan(QString::fromStdString(session_->current().document.scan_path));
     const QString own = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
@@ -161,14 +173,9 @@ bool MainWindow::save_as() {
                    : scan.absolutePath();
     suggested.setFile(QDir(folder), scan.completeBaseName() + ".arris");
   }
-  QFileDialog dialog(this, tr("Save session"), suggested.absolutePath(), session_filter());
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix("arris");
-  dialog.selectFile(suggested.fileName());
-  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return false;
-  const QString path = dialog.selectedFiles().first();
-  settings.setValue("folders/sessions", QFileInfo(path).absolutePath());
-  return save_to(path);
+  const QString path =
+      choose_path(this, tr("Save session"), suggested, "sessions", tr("Arris session (*.arris)"));
+  return !path.isEmpty() && save_to(path);
 }
 
 bool MainWindow::save_to(const QString& path) {
@@ -270,16 +277,11 @@ void MainWindow::choose_picture() {
   PictureDialog dialog(picture_options_, stack_->size(), this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
-  QSettings settings;
-  const QString name =
-      QFileInfo(QString::fromStdString(session_->current().document.scan_path)).completeBaseName() +
-      ".png";
-  QString path = QFileDialog::getSaveFileName(
-      this, tr("Save picture"), QDir(settings.value("folders/pictures").toString()).filePath(name),
-      tr("PNG (*.png);;JPEG (*.jpg)"));
+  const QString name = QFileInfo(session_->part_name()).completeBaseName() + ".png";
+  const QFileInfo proposed(QDir(QSettings().value("folders/pictures").toString()), name);
+  const QString path =
+      choose_path(this, tr("Save picture"), proposed, "pictures", tr("PNG (*.png);;JPEG (*.jpg)"));
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += ".png";
-  settings.setValue("folders/pictures", QFileInfo(path).absolutePath());
   QString error;
   if (save_picture(path, picture_options_, &error))
     statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
@@ -332,15 +334,15 @@ void MainWindow::show_load_report() {
   QString text = tr("%1: %2 with %3 and %4.")
                      .arg(QFileInfo(QString::fromStdString(report.file)).fileName(),
                           QString::fromStdString(report.format),
-                          counted(report.file_faces, tr("face"), tr("faces")),
-                          counted(report.file_vertices, tr("vertex"), tr("vertices")));
+                          shown_count(report.file_faces, tr("face"), tr("faces")),
+                          shown_count(report.file_vertices, tr("vertex"), tr("vertices")));
   text += "\n" + tr("The mesh has %1, %2, has %3 and Euler number %4.")
-                     .arg(counted(report.faces, tr("triangle"), tr("triangles")),
+                     .arg(shown_count(report.faces, tr("triangle"), tr("triangles")),
                           report.components == 1
                               ? tr("hangs together in one piece")
                               : tr("falls into %1 loose pieces")
                                     .arg(count_text(static_cast<qint64>(report.components))),
-                          counted(report.border_edges, tr("border edge"), tr("border edges")))
+                          shown_count(report.border_edges, tr("border edge"), tr("border edges")))
                      .arg(report.euler_number);
   QMessageBox box(QMessageBox::Information, tr("Load report"), text, QMessageBox::Ok, this);
   QString details;

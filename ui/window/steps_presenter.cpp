@@ -291,7 +291,7 @@ StepCard StepsPresenter::lines_card() {
   if (document.find_sharp_lines) {
     double length = 0.0;
     for (const LinePtr& line : document.lines.lines) length += line->length;
-    lines.result = counted(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
+    lines.result = shown_count(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
                    QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
   }
   return lines;
@@ -368,7 +368,8 @@ StepCard StepsPresenter::partitions_card() {
            "fronts")};
   if (document.find_partitions)
     partitions.result =
-        counted(document.partitions.partitions.size(), tr("partition"), tr("partitions")) + ", " +
+        shown_count(document.partitions.partitions.size(), tr("partition"), tr("partitions")) +
+        ", " +
         tr("%1 % of the area")
             .arg(QString::fromStdString(fixed_text(100.0 * assigned_share(document), 1)));
   return partitions;
@@ -378,7 +379,7 @@ QString StepsPresenter::swaps_text(const MeshPtr& before, const MeshPtr& after) 
   for (const Swaps& known : swaps_)
     if (known.before == before && known.after == after) return known.text;
   const QString text =
-      counted(count_new_edges(*after, *before), tr("edge swapped"), tr("edges swapped")) +
+      shown_count(count_new_edges(*after, *before), tr("edge swapped"), tr("edges swapped")) +
       tr(", angles above 120°: %1 → %2 %").arg(wide_angles_text(*before), wide_angles_text(*after));
   if (swaps_.size() > 3) swaps_.erase(swaps_.begin());  // no meshes are kept for nothing
   swaps_.push_back({before, after, text});
@@ -397,10 +398,10 @@ void StepsPresenter::refresh() {
     const Mesh& mesh = *document.opened.mesh;
     open.state = StepState::done;
     open.result =
-        counted(mesh.face_count(), tr("face"), tr("faces")) + ", " +
+        shown_count(mesh.face_count(), tr("face"), tr("faces")) + ", " +
         tr("edges %1 mm, %2")
             .arg(QString::fromStdString(arris::number_text(mesh.mean_edge_length(), 3)),
-                 counted(mesh.border_edge_count(), tr("border edge"), tr("border edges")));
+                 shown_count(mesh.border_edge_count(), tr("border edge"), tr("border edges")));
     if (!document.scan->report.clean()) open.result += "; " + tr("mended, see the load report");
     open.time = seconds_text(session_->seconds_of("open"));
   }
@@ -460,7 +461,7 @@ void StepsPresenter::refresh() {
                                   1, 100)};
     if (document.smooth_curvature)
       smoothing.result =
-          counted(static_cast<std::size_t>(s.value("passes", 0)), tr("pass"), tr("passes"));
+          shown_count(static_cast<std::size_t>(s.value("passes", 0)), tr("pass"), tr("passes"));
   }
   cards.push_back(simplify);
   cards.push_back(swap);

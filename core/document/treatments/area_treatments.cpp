@@ -260,11 +260,6 @@ std::string words_of_remove_small(const json& parameters) {
                                          : "Remove " + under;
 }
 
-template <const Treatment& treatment>
-Result<Document> apply(const Document& document, const json& parameters, const Context& context) {
-  return apply_treatment(treatment.name, document, parameters, context);
-}
-
 }  // namespace
 
 const Treatment extend_partition_treatment{"extend_partition", after_partitions, extend};
@@ -273,21 +268,32 @@ const Treatment remove_small_partitions_treatment{"remove_small_partitions", aft
                                                   remove_small};
 const Treatment fill_unassigned_treatment{"fill_unassigned", after_partitions, fill_unassigned};
 
-const OperationKind extend_partition_operation{
-    "extend_partition", "Extend partitions", 2, resolve_extend, apply<extend_partition_treatment>,
-    words_of_extend,    upgrade_extend};
-const OperationKind remove_partitions_operation{
-    "remove_partitions", "Remove partitions", 1, resolve_remove, apply<remove_partitions_treatment>,
-    words_of_remove};
-const OperationKind remove_small_partitions_operation{"remove_small_partitions",
-                                                      "Remove small partitions",
-                                                      2,
-                                                      resolve_remove_small,
-                                                      apply<remove_small_partitions_treatment>,
-                                                      words_of_remove_small,
-                                                      upgrade_remove_small};
-const OperationKind fill_unassigned_operation{
-    "fill_unassigned", "Fill unassigned areas",          1,
-    resolve_fill,      apply<fill_unassigned_treatment>, words_of_fill};
+const OperationKind extend_partition_operation{"extend_partition",
+                                               "Extend partitions",
+                                               2,
+                                               resolve_extend,
+                                               perform_once<extend_partition_treatment>,
+                                               words_of_extend,
+                                               upgrade_extend};
+const OperationKind remove_partitions_operation{"remove_partitions",
+                                                "Remove partitions",
+                                                1,
+                                                resolve_remove,
+                                                perform_once<remove_partitions_treatment>,
+                                                words_of_remove};
+const OperationKind remove_small_partitions_operation{
+    "remove_small_partitions",
+    "Remove small partitions",
+    2,
+    resolve_remove_small,
+    perform_once<remove_small_partitions_treatment>,
+    words_of_remove_small,
+    upgrade_remove_small};
+const OperationKind fill_unassigned_operation{"fill_unassigned",
+                                              "Fill unassigned areas",
+                                              1,
+                                              resolve_fill,
+                                              perform_once<fill_unassigned_treatment>,
+                                              words_of_fill};
 
 }  // namespace arris

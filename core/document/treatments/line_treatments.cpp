@@ -334,11 +334,6 @@ std::string words_of_recompute(const json& parameters) {
   return what + ", " + degrees_in_words(parameters["angle"].get<double>());
 }
 
-template <const Treatment& treatment>
-Result<Document> apply(const Document& document, const json& parameters, const Context& context) {
-  return apply_treatment(treatment.name, document, parameters, context);
-}
-
 }  // namespace
 
 const Treatment delete_lines_treatment{"delete_lines", after_lines, delete_lines};
@@ -351,24 +346,30 @@ const Treatment reroute_line_treatment{"reroute_line", after_lines, reroute};
 const Treatment recompute_lines_treatment{"recompute_lines", after_lines, recompute};
 
 const OperationKind delete_lines_operation{
-    "delete_lines", "Delete lines", 1, resolve_delete, apply<delete_lines_treatment>,
+    "delete_lines", "Delete lines", 1, resolve_delete, perform_once<delete_lines_treatment>,
     words_of_delete};
 const OperationKind extend_line_operation{
-    "extend_line", "Extend line", 1, resolve_extend, apply<extend_line_treatment>, words_of_extend};
+    "extend_line",  "Extend line", 1, resolve_extend, perform_once<extend_line_treatment>,
+    words_of_extend};
 const OperationKind trim_line_operation{
-    "trim_line", "Trim line", 1, resolve_trim, apply<trim_line_treatment>, words_of_trim};
+    "trim_line", "Trim line", 1, resolve_trim, perform_once<trim_line_treatment>, words_of_trim};
 const OperationKind split_line_operation{
-    "split_line", "Split line", 1, resolve_split, apply<split_line_treatment>, words_of_split};
+    "split_line",  "Split line", 1, resolve_split, perform_once<split_line_treatment>,
+    words_of_split};
 const OperationKind merge_lines_operation{
-    "merge_lines", "Merge lines", 1, resolve_merge, apply<merge_lines_treatment>, words_of_merge};
+    "merge_lines", "Merge lines", 1, resolve_merge, perform_once<merge_lines_treatment>,
+    words_of_merge};
 const OperationKind draw_line_operation{
-    "draw_line",   "Draw line", 2, resolve_draw, apply<draw_line_treatment>,
+    "draw_line",   "Draw line", 2, resolve_draw, perform_once<draw_line_treatment>,
     words_of_draw, upgrade_draw};
 const OperationKind reroute_line_operation{
-    "reroute_line",  "Reroute line", 1, resolve_reroute, apply<reroute_line_treatment>,
+    "reroute_line",  "Reroute line", 1, resolve_reroute, perform_once<reroute_line_treatment>,
     words_of_reroute};
-const OperationKind recompute_lines_operation{
-    "recompute_lines", "Recompute lines", 1, resolve_recompute, apply<recompute_lines_treatment>,
-    words_of_recompute};
+const OperationKind recompute_lines_operation{"recompute_lines",
+                                              "Recompute lines",
+                                              1,
+                                              resolve_recompute,
+                                              perform_once<recompute_lines_treatment>,
+                                              words_of_recompute};
 
 }  // namespace arris

@@ -455,11 +455,6 @@ Result<Outcome> smooth(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-template <const Treatment& treatment>
-Result<Document> apply(const Document& document, const json& parameters, const Context& context) {
-  return apply_treatment(treatment.name, document, parameters, context);
-}
-
 }  // namespace
 
 const Treatment connect_partitions_treatment{"connect_partitions", connect_belongs, connect};
@@ -475,34 +470,37 @@ const OperationKind connect_partitions_operation{"connect_partitions",
                                                  "Connect partitions",
                                                  1,
                                                  resolve_connect,
-                                                 apply<connect_partitions_treatment>,
+                                                 perform_once<connect_partitions_treatment>,
                                                  words_of_connect};
 const OperationKind restart_partitions_operation{"restart_partitions",
                                                  "Restart partitions",
                                                  1,
                                                  resolve_restart,
-                                                 apply<restart_partitions_treatment>,
+                                                 perform_once<restart_partitions_treatment>,
                                                  words_of_restart};
 const OperationKind recompute_partitions_operation{"recompute_partitions",
                                                    "Recompute partitions",
                                                    1,
                                                    resolve_recompute,
-                                                   apply<recompute_partitions_treatment>,
+                                                   perform_once<recompute_partitions_treatment>,
                                                    words_of_recompute};
 const OperationKind split_partition_operation{
-    "split_partition", "Split partition", 1, resolve_split, apply<split_partition_treatment>,
+    "split_partition", "Split partition", 1, resolve_split, perform_once<split_partition_treatment>,
     words_of_split};
 const OperationKind split_to_four_sides_operation{"split_to_four_sides",
                                                   "Split to four sides",
                                                   1,
                                                   resolve_four_sides,
-                                                  apply<split_to_four_sides_treatment>,
+                                                  perform_once<split_to_four_sides_treatment>,
                                                   words_of_four_sides};
 const OperationKind paint_partition_operation{
-    "paint_partition", "Paint partition", 1, resolve_paint, apply<paint_partition_treatment>,
+    "paint_partition", "Paint partition", 1, resolve_paint, perform_once<paint_partition_treatment>,
     words_of_paint};
-const OperationKind smooth_boundaries_operation{
-    "smooth_boundaries", "Smooth boundaries", 1, resolve_smooth, apply<smooth_boundaries_treatment>,
-    words_of_smooth};
+const OperationKind smooth_boundaries_operation{"smooth_boundaries",
+                                                "Smooth boundaries",
+                                                1,
+                                                resolve_smooth,
+                                                perform_once<smooth_boundaries_treatment>,
+                                                words_of_smooth};
 
 }  // namespace arris

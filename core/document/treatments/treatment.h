@@ -66,6 +66,12 @@ const Treatment* find_treatment(std::string_view operation);
 /// Performs it for the first time, and keeps it as a correction.
 Result<Document> apply_treatment(std::string_view name, const Document& document,
                                  const nlohmann::json& parameters, const Context& context);
+/// The same as what the table of operations holds.
+template <const Treatment& treatment>
+Result<Document> perform_once(const Document& document, const nlohmann::json& parameters,
+                              const Context& context) {
+  return apply_treatment(treatment.name, document, parameters, context);
+}
 
 /// Does the corrections of a document again, in order, on lines (or partitions) found anew.
 std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections, Ground& ground,

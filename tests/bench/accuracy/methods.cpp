@@ -92,6 +92,7 @@ constexpr AreaIdea area_ideas[] = {
     {"no growing", [](AreaTreeOptions& o) { o.growing.good = 0.0; }},
     {"noise of windows", [](AreaTreeOptions& o) { o.growths = 1; }},
     {"no joins by surfaces", [](AreaTreeOptions& o) { o.joining.surfaces = false; }},
+    {"no continuations", [](AreaTreeOptions& o) { o.joining.continuations = false; }},
     {"no joins over kinks", [](AreaTreeOptions& o) { o.joining.kink = 1e-3F; }},
     {"no limit on free areas", [](AreaTreeOptions& o) { o.joining.free_rise = 1e9F; }},
     {"borders count nothing",
