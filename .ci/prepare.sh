@@ -10,7 +10,7 @@ packages=(
   qt6-base-dev libqt6opengl6-dev libvtk9-dev
   libopenmesh-dev libeigen3-dev libtbb-dev libxxhash-dev
   nlohmann-json3-dev libcli11-dev libexpected-dev libgtest-dev
-  pkg-config zlib1g-dev libexpat1-dev libzip-dev
+  pkg-config zlib1g-dev libexpat1-dev libzip-dev libsqlite3-dev
   xvfb xauth libgl1-mesa-dri fonts-dejavu-core
 )
 

@@ -24,6 +24,7 @@
 #include "core/document/flow.h"
 #include "core/document/history.h"
 #include "core/document/journal.h"
+#include "core/document/session_file.h"
 #include "core/mesh/write_ply.h"
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
@@ -181,9 +182,18 @@ nlohmann::json summary_of(const History& history) {
 constexpr const char* result_names[] = {"lines.obj", "boundaries.obj", "scan_partitions.ply",
                                         "operations.jsonl", "summary.json"};
 
+/// Where a run leaves what it found.
+struct ResultPlaces {
+  std::string folder;
+  std::string session;  // *.arris; empty: none
+};
+
 /// Whether write_results() could write there now: asked before the work, which may take minutes.
-Result<void> check_results(const std::string& folder) {
+Result<void> check_results(const ResultPlaces& places) {
+  const std::string& folder = places.folder;
   if (const auto ready = check_folder_writable(folder); !ready) return ready;
+  if (!places.session.empty())
+    if (const auto ready = check_writable(places.session); !ready) return ready;
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) return {};
   for (const char* name : result_names)
@@ -192,9 +202,10 @@ Result<void> check_results(const std::string& folder) {
   return {};
 }
 
-/// The result_names.
-Result<void> write_results(const std::string& folder, const History& history,
+/// The result_names, and the session.
+Result<void> write_results(const ResultPlaces& places, const History& history,
                            nlohmann::json summary) {
+  const std::string& folder = places.folder;
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code) return fail("The folder " + folder + " cannot be made: " + code.message() + ".");
@@ -209,6 +220,11 @@ Result<void> write_results(const std::string& folder, const History& history,
       !r)
     return r;
   if (auto r = write_file_whole(path("operations.jsonl"), journal_text(history)); !r) return r;
+  if (!places.session.empty()) {
+    SessionExtras extras;
+    extras.part = std::filesystem::path(document.scan_path).filename().string();
+    if (auto r = save_session(places.session, history, extras, progress_context()); !r) return r;
+  }
   summary["peak_memory_mb"] = rounded(peak_memory_mb(), 4);
   return write_file_whole(path("summary.json"), summary.dump(2) + "\n");
 }
@@ -281,8 +297,8 @@ struct Segmentation {
   nlohmann::json partitions = nlohmann::json::object();
 };
 
-int segment(const std::string& scan, const std::string& folder, const Segmentation& wanted) {
-  if (const auto ready = check_results(folder); !ready) return complain(ready.error());
+int segment(const std::string& scan, const ResultPlaces& places, const Segmentation& wanted) {
+  if (const auto ready = check_results(places); !ready) return complain(ready.error());
   std::vector<Operation> operations{open_file(scan, wanted.weld)};
   for (Operation& operation : operations_of(wanted.flow)) {
     if (operation.name == "simplify") operation.parameters = wanted.simplification;
@@ -302,9 +318,9 @@ int segment(const std::string& scan, const std::string& folder, const Segmentati
     if (const auto done = run.step(operation); !done) return complain(done.error());
   nlohmann::json summary = summary_of(run.history);
   summary["seconds"] = run.seconds;
-  if (const auto written = write_results(folder, run.history, summary); !written)
+  if (const auto written = write_results(places, run.history, summary); !written)
     return complain(written.error());
-  print_outcome(folder, summary);
+  print_outcome(places.folder, summary);
   return 0;
 }
 
@@ -356,8 +372,8 @@ Result<std::uint32_t> row_of(const History& history, const std::string& name,
 }
 
 int replay_file(const std::string& operations, const std::string& scan, const std::string& version,
-                const std::string& folder) {
-  if (const auto ready = check_results(folder); !ready) return complain(ready.error());
+                const ResultPlaces& places) {
+  if (const auto ready = check_results(places); !ready) return complain(ready.error());
   const auto start = std::chrono::steady_clock::now();
   Result<Replay> done = replay_loudly(operations, scan);
   if (!done) return complain(done.error());
@@ -373,9 +389,9 @@ int replay_file(const std::string& operations, const std::string& scan, const st
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   summary["seconds"] = {{"replay", rounded(spent.count(), 3)}};
   summary["warnings"] = done->warnings;
-  if (const auto written = write_results(folder, done->history, summary); !written)
+  if (const auto written = write_results(places, done->history, summary); !written)
     return complain(written.error());
-  print_outcome(folder, summary);
+  print_outcome(places.folder, summary);
   return 0;
 }
 
@@ -591,19 +607,25 @@ int main(int argc, char** argv) {
                       "Vertices that lie on one place stay apart, as the file has them (not the "
                       "corners of STL)");
 
-  CLI::App* replay_command = app.add_subcommand("replay", "Run a journal or list of operations");
-  replay_command->add_option("OPERATIONS", operations, "A file of operations, one JSON a line")
+  CLI::App* replay_command = app.add_subcommand("replay", "Run a session or list of operations");
+  replay_command
+      ->add_option("OPERATIONS", operations,
+                   "A session (*.arris), or a file of operations, one JSON a line")
       ->required();
   replay_command->add_option("-o,--output", output, "The folder for the results")->required();
   std::string other_scan;
   replay_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
   std::string at;
   replay_command->add_option("--at", at, "Write the version of this name, not the last state");
+  std::string session;
+  for (CLI::App* command : {segment_command, replay_command})
+    command->add_option("--session", session,
+                        "Also write one file with scan and operations, for the window (*.arris)");
 
   CLI::App* compare_command = app.add_subcommand(
       "compare", "Where two named versions of a session divide the part otherwise");
   std::array<std::string, 2> versions;
-  compare_command->add_option("OPERATIONS", operations, "A session, as the window saves it")
+  compare_command->add_option("OPERATIONS", operations, "A session (*.arris), or its operations")
       ->required();
   compare_command->add_option("VERSION", versions[0], "The name of a version")->required();
   compare_command->add_option("OTHER", versions[1], "Another one; left out: the last state");
@@ -663,8 +685,8 @@ int main(int argc, char** argv) {
   if (*info_command) return info(scan, weld, as_json);
   if (*curvature_command) return curvature(scan, weld, output);
   if (*simplify_command) return simplify_scan(scan, weld, output, simplification);
-  if (*segment_command) return segment(scan, output, segmentation);
-  if (*replay_command) return replay_file(operations, other_scan, at, output);
+  if (*segment_command) return segment(scan, {output, session}, segmentation);
+  if (*replay_command) return replay_file(operations, other_scan, at, {output, session});
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);
 }

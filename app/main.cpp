@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
   parser.setApplicationDescription("Segments scanned moulds: sharp lines, curvature, partitions.");
   parser.addHelpOption();
   parser.addVersionOption();
-  parser.addPositionalArgument("SCAN", "STL, PLY, OBJ or OFF file to open.", "[SCAN]");
+  parser.addPositionalArgument("SCAN", "Scan (STL, PLY, OBJ, OFF, 3MF) or session to open.",
+                               "[SCAN]");
   const QCommandLineOption sample("sample", "Open the sample mould.");
   const QCommandLineOption screenshot("screenshot", "Open, draw, save the picture and exit.",
                                       "OUT.png");
@@ -149,11 +150,12 @@ int main(int argc, char** argv) {
   }
   if (!shoot && !parser.isSet(run)) main_window.tour().offer();
   main_window.show();
-  if (!parser.positionalArguments().isEmpty())
+  // What a crash left behind comes before what was asked for: it would be forgotten otherwise.
+  if (!shoot && !parser.isSet(run) && main_window.offer_recovery()) {
+  } else if (!parser.positionalArguments().isEmpty()) {
     main_window.open(parser.positionalArguments().first());
-  else if (parser.isSet(sample))
+  } else if (parser.isSet(sample)) {
     main_window.open_sample();
-  else
-    main_window.offer_recovery();
+  }
   return QApplication::exec();
 }

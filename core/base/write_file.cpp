@@ -51,12 +51,18 @@ class NewFile {
       if (written < 0) return false;
       content.remove_prefix(static_cast<std::size_t>(written));
     }
+    return close_durable();
+  }
+
+  /// Waits until the disk has all that was written, by whatever way.
+  bool close_durable() {
     if (::fsync(descriptor_) != 0) return false;
     const int descriptor = descriptor_;
     descriptor_ = -1;
     return ::close(descriptor) == 0;
   }
 
+  const std::string& name() const { return name_; }
   void set_mode(mode_t mode) { ::fchmod(descriptor_, mode & 07777); }
 
   bool rename_to(const std::string& path) {
@@ -137,15 +143,34 @@ Result<void> check_folder_writable(const std::string& folder) {
   return {};
 }
 
+namespace {
+
+/// Puts what was written in its place.
+Result<void> put_in_place(const std::string& path, Place& place) {
+  if (!place.file.rename_to(place.target.string()))
+    return fail(path + " cannot be replaced: " + system_reason() + ".");
+  sync_folder(place.folder);
+  return {};
+}
+
+}  // namespace
+
 Result<void> write_file_whole(const std::string& path, const std::string& content) {
   Place place;
   if (const Result<void> ready = prepare(path, place); !ready) return ready;
   if (!place.file.write(content))
     return fail(path + " cannot be written: " + system_reason() + ".");
-  if (!place.file.rename_to(place.target.string()))
-    return fail(path + " cannot be replaced: " + system_reason() + ".");
-  sync_folder(place.folder);
-  return {};
+  return put_in_place(path, place);
+}
+
+Result<void> replace_file(const std::string& path,
+                          const std::function<Result<void>(const std::string& part)>& fill) {
+  Place place;
+  if (const Result<void> ready = prepare(path, place); !ready) return ready;
+  if (const Result<void> filled = fill(place.file.name()); !filled) return filled;
+  if (!place.file.close_durable())
+    return fail(path + " cannot be written: " + system_reason() + ".");
+  return put_in_place(path, place);
 }
 
 }  // namespace arris

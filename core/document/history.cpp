@@ -4,6 +4,7 @@
 
 #include "core/document/journal.h"
 #include "core/document/parameters.h"
+#include "core/document/perform.h"
 
 namespace arris {
 
@@ -19,6 +20,39 @@ History::History(std::size_t budget) : budget_(budget), redo_child_(1, 0) {}
 History::~History() = default;
 History::History(History&&) noexcept = default;
 History& History::operator=(History&&) noexcept = default;
+
+Result<History> History::restored(std::vector<HistoryEntry> entries, const std::vector<Move>& moves,
+                                  std::uint32_t at, Document document) {
+  History history;
+  const auto no_such = [](std::uint32_t row) {
+    return fail("row " + std::to_string(row) + " is not there.");
+  };
+  auto move = moves.begin();
+  const auto make_moves = [&]() -> Result<void> {
+    for (; move != moves.end() && move->rows == history.entries_.size(); ++move) {
+      if (move->head > history.entries_.size()) return no_such(move->head);
+      history.keep_way_back(move->head);
+      history.head_ = move->head;
+    }
+    return {};
+  };
+  for (HistoryEntry& entry : entries) {
+    if (const auto moved = make_moves(); !moved) return tl::unexpected<Error>(moved.error());
+    const auto next = static_cast<std::uint32_t>(history.entries_.size() + 1);
+    if (entry.sequence != next) return no_such(next);
+    if (entry.parent >= next) return no_such(entry.parent);
+    history.keep_way_back(entry.parent);
+    history.redo_child_[entry.parent] = next;
+    history.redo_child_.push_back(0);
+    history.snapshots_.emplace_back();
+    history.head_ = next;
+    history.entries_.push_back(std::move(entry));
+  }
+  if (const auto moved = make_moves(); !moved) return tl::unexpected<Error>(moved.error());
+  if (move != moves.end() || at == 0 || at > history.entries_.size()) return no_such(at);
+  history.go(at, std::move(document));
+  return history;
+}
 
 Result<void> History::commit(Operation operation, Document result) {
   HistoryEntry entry;
@@ -39,7 +73,7 @@ Result<void> History::commit(Operation operation, Document result) {
 }
 
 Result<void> History::run(const Operation& operation, const Context& context) {
-  Result<Performed> performed = perform(current_, operation, context);
+  Result<Performed> performed = perform(current_, operation, files_.get(), context);
   if (!performed) return tl::unexpected<Error>(performed.error());
   return commit(std::move(performed->operation), std::move(performed->document));
 }
@@ -113,6 +147,16 @@ std::vector<std::uint32_t> History::line_of_travel() const {
   return rows;
 }
 
+std::vector<std::uint32_t> History::closing_moves() const {
+  std::vector<std::uint32_t> moves;
+  const std::vector<std::uint32_t> line = line_of_travel();
+  const auto last = static_cast<std::uint32_t>(entries_.size());
+  const std::uint32_t end = line.empty() ? 0 : line.back();
+  if (end != last) moves.push_back(end);
+  if (head_ != end) moves.push_back(head_);
+  return moves;
+}
+
 void History::set_journal(std::shared_ptr<Journal> journal) { journal_ = std::move(journal); }
 
 std::size_t History::bytes() const {
@@ -122,12 +166,16 @@ std::size_t History::bytes() const {
   return sum;
 }
 
-void History::go(std::uint32_t sequence, Document document) {
+void History::keep_way_back(std::uint32_t sequence) {
   // From the new head on, redo retraces the way back to where we came from, where it lies ahead.
   for (std::uint32_t s = head_; s != 0 && s != sequence; s = entries_[s - 1].parent)
     redo_child_[entries_[s - 1].parent] = s;
   for (std::uint32_t s = sequence; s != 0; s = entries_[s - 1].parent)
     redo_child_[entries_[s - 1].parent] = s;
+}
+
+void History::go(std::uint32_t sequence, Document document) {
+  keep_way_back(sequence);
   if (sequence != 0 && !snapshots_[sequence - 1]) {
     const std::uint32_t parent = entries_[sequence - 1].parent;
     const bool known = parent != 0 && snapshots_[parent - 1];
@@ -168,10 +216,10 @@ Result<Document> History::document_at(std::uint32_t sequence, const Context& con
   for (std::size_t k = missing.size(); k-- > 0;) {
     const double step = 1.0 / static_cast<double>(missing.size());
     const double done = static_cast<double>(missing.size() - 1 - k) * step;
-    Result<Document> next =
-        apply(document, entries_[missing[k] - 1].operation, context.part(done, done + step));
-    if (!next) return next;
-    document = std::move(*next);
+    Result<Performed> next = perform(document, entries_[missing[k] - 1].operation, files_.get(),
+                                     context.part(done, done + step));
+    if (!next) return tl::unexpected<Error>(next.error());
+    document = std::move(next->document);
   }
   return document;
 }

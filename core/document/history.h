@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/context.h"
+#include "core/base/file_source.h"
 #include "core/base/result.h"
 #include "core/document/document.h"
 #include "core/document/operation.h"
@@ -35,6 +36,18 @@ class History {
   ~History();
   History(History&&) noexcept;
   History& operator=(History&&) noexcept;
+
+  /// A move of the head that was made when there were so many rows.
+  struct Move {
+    std::uint32_t rows = 0;
+    std::uint32_t head = 0;
+  };
+  /// A history as it was written down, of which only the document after row `at` is known; the head
+  /// is there. Those of the other rows come by replay, as snapshots that were dropped do. Moves are
+  /// in their order. Errors: rows are not numbered one after the other, or a parent or a move is of
+  /// a row that is not there then.
+  static Result<History> restored(std::vector<HistoryEntry> entries, const std::vector<Move>& moves,
+                                  std::uint32_t at, Document document);
 
   const Document& current() const { return current_; }
   std::uint32_t head() const { return head_; }
@@ -74,8 +87,15 @@ class History {
   /// The rows from the first edit through the head to where redo would lead at last.
   std::vector<std::uint32_t> line_of_travel() const;
 
+  /// The moves of the head that, after all rows in their order, lead to where it is, and redo to
+  /// where it leads.
+  std::vector<std::uint32_t> closing_moves() const;
+
   /// Rows from now on are also written there.
   void set_journal(std::shared_ptr<Journal> journal);
+  /// Where `open` finds files whose content is known when it is done again. Null: where they were.
+  void set_files(std::shared_ptr<const FileSource> files) { files_ = std::move(files); }
+  const std::shared_ptr<const FileSource>& files() const { return files_; }
   /// Bytes held by the snapshots over and above the current document.
   std::size_t bytes() const;
 
@@ -87,6 +107,8 @@ class History {
   };
 
   void go(std::uint32_t sequence, Document document);
+  /// Redo from `sequence` on retraces the way back to where the head is.
+  void keep_way_back(std::uint32_t sequence);
   void keep_budget();
 
   std::size_t budget_;
@@ -98,6 +120,7 @@ class History {
   std::uint32_t head_ = 0;
   std::uint64_t clock_ = 0;
   std::shared_ptr<Journal> journal_;
+  std::shared_ptr<const FileSource> files_;
 };
 
 }  // namespace arris

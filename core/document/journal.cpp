@@ -4,43 +4,17 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <unordered_map>
+#include <utility>
 
-#ifdef _WIN32
-#include <fcntl.h>
-#include <io.h>
-#include <sys/stat.h>
-#else
-#include <fcntl.h>
-#include <unistd.h>
-#endif
+#include "core/document/document_bytes.h"
+#include "core/document/perform.h"
+#include "core/document/scan_places.h"
+#include "core/document/session_file.h"
 
 namespace arris {
 
 namespace {
-
-#ifdef _WIN32
-int open_for_append(const char* path) {
-  return _open(path, _O_CREAT | _O_APPEND | _O_WRONLY | _O_BINARY, _S_IREAD | _S_IWRITE);
-}
-auto write_some(int file, const char* data, std::size_t size) {
-  return _write(file, data, static_cast<unsigned>(size));
-}
-int make_durable(int file) { return _commit(file); }
-long long size_of(int file) { return _filelengthi64(file); }
-int cut_to(int file, long long size) { return _chsize_s(file, size); }
-void close_file(int file) { _close(file); }
-#else
-int open_for_append(const char* path) {
-  return ::open(path, O_CREAT | O_APPEND | O_WRONLY | O_CLOEXEC, 0644);
-}
-auto write_some(int file, const char* data, std::size_t size) { return ::write(file, data, size); }
-int make_durable(int file) { return ::fsync(file); }
-long long size_of(int file) { return ::lseek(file, 0, SEEK_END); }
-int cut_to(int file, long long size) { return ::ftruncate(file, size); }
-void close_file(int file) { ::close(file); }
-#endif
 
 std::string row_text(const HistoryEntry& entry) {
   const nlohmann::json row{{"sequence", entry.sequence},
@@ -58,95 +32,180 @@ std::string name_text(std::uint32_t sequence, const std::string& name) {
   return nlohmann::json{{"name", name}, {"row", sequence}}.dump() + "\n";
 }
 
+/// What a file holds, and where the scans are that it names.
+struct JournalContent {
+  std::vector<JournalRecord> records;
+  std::shared_ptr<const FileSource> files;
+  std::optional<SessionSnapshot> snapshot;
+  std::vector<std::string> warnings;
+};
+
+Result<JournalContent> read_text(const std::string& path, const ReplayOptions& options) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(path + " cannot be read: " + std::strerror(errno) + ".");
+  JournalContent content;
+  content.files = std::make_shared<const ScanPlaces>(path, options.located);
+  std::size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    const std::string where = "line " + std::to_string(++number);
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    nlohmann::json json = parse_record(line);
+    if (json.is_object()) {
+      content.records.push_back({where, std::move(json)});
+    } else if (file.eof()) {
+      content.warnings.push_back(path + ", " + where +
+                                 ": the last line was cut short and is left out.");
+    } else {
+      return fail(path + ", " + where + ": this is not a JSON object.");
+    }
+  }
+  return content;
+}
+
+Result<JournalContent> read_content(const std::string& path, const ReplayOptions& options) {
+  if (!SessionFile::is_session(path)) return read_text(path, options);
+  const Result<std::shared_ptr<SessionFile>> session = SessionFile::read(path);
+  if (!session) return tl::unexpected<Error>(session.error());
+  Result<std::vector<JournalRecord>> records = (*session)->records();
+  if (!records) return tl::unexpected<Error>(records.error());
+  Result<std::optional<SessionSnapshot>> snapshot = (*session)->snapshot(options.key);
+  if (!snapshot) return tl::unexpected<Error>(snapshot.error());
+  if (!options.scan.empty()) snapshot->reset();  // of another scan
+  return JournalContent{
+      std::move(*records), SessionFile::files(*session, options.located), std::move(*snapshot), {}};
+}
+
+/// A history that stands on a snapshot, and how many records are in it already.
+struct Restored {
+  History history;
+  std::size_t records = 0;
+};
+
+/// Nothing where the snapshot is not the document that its row says; all rows are run then. It was
+/// signed here, and so were its rows: they were run once, and are not checked again.
+Result<std::optional<Restored>> restore(const JournalContent& content, const Context& context) {
+  const SessionSnapshot& snapshot = *content.snapshot;
+  Restored restored;
+  std::vector<HistoryEntry> entries;
+  std::vector<History::Move> moves;
+  for (; restored.records < content.records.size(); ++restored.records) {
+    const nlohmann::json& json = content.records[restored.records].json;
+    const auto rows = static_cast<std::uint32_t>(entries.size());
+    if (json.contains("head")) {
+      moves.push_back({rows, json["head"].get<std::uint32_t>()});
+    } else if (json.contains("operation") && rows < snapshot.rows) {
+      Result<Operation> operation = Operation::from_json(json["operation"]);
+      if (!operation) return std::nullopt;
+      entries.push_back({json["sequence"].get<std::uint32_t>(), json["parent"].get<std::uint32_t>(),
+                         std::move(*operation), json["hash"]});
+    } else {
+      break;  // what follows was added later
+    }
+  }
+  if (entries.size() != snapshot.rows || snapshot.row == 0 || snapshot.row > snapshot.rows)
+    return std::nullopt;
+  std::uint32_t opening = snapshot.row;
+  while (opening != 0 && entries[opening - 1].operation.name != "open")
+    opening = entries[opening - 1].parent < opening ? entries[opening - 1].parent : 0;
+  if (opening == 0) return std::nullopt;
+  const Result<Performed> opened = perform(Document{}, entries[opening - 1].operation,
+                                           content.files.get(), context.part(0.0, 0.7));
+  if (context.cancelled()) return cancelled();
+  if (!opened) return std::nullopt;  // running the rows tells why
+  std::optional<Document> document =
+      document_from(snapshot.bytes, opened->document, context.part(0.7, 1.0));
+  if (context.cancelled()) return cancelled();
+  if (!document || hash_of(*document) != entries[snapshot.row - 1].hash) return std::nullopt;
+  Result<History> history =
+      History::restored(std::move(entries), moves, snapshot.row, std::move(*document));
+  if (!history) return std::nullopt;
+  restored.history = std::move(*history);
+  restored.history.set_files(content.files);
+  const std::uint32_t head =
+      moves.empty() || moves.back().rows != snapshot.rows ? snapshot.rows : moves.back().head;
+  if (const auto moved = restored.history.travel(head, context); !moved) {
+    if (moved.error().cancelled) return cancelled();
+    return std::nullopt;
+  }
+  return restored;
+}
+
 }  // namespace
 
-Result<std::shared_ptr<Journal>> Journal::open(const std::string& path) {
-  const int file = open_for_append(path.c_str());
-  if (file < 0)
-    return fail("The journal " + path + " cannot be opened for writing: " + std::strerror(errno) +
-                ".");
-  // What is appended must not run into a last row without its end: one that a crash cut short goes
-  // (it never counted), a whole one gets its end.
-  if (std::filesystem::is_regular_file(path)) {
-    std::ifstream before(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(before), {}};
-    const std::size_t whole = text.find_last_of('\n') + 1;  // npos + 1 is 0
-    const bool ends_well = whole == text.size();
-    const bool mended = ends_well || (nlohmann::json::accept(text.substr(whole))
-                                          ? write_some(file, "\n", 1) == 1
-                                          : cut_to(file, static_cast<long long>(whole)) == 0);
-    if (!mended) {
-      const std::string reason = std::strerror(errno);
-      close_file(file);
-      return fail("The journal " + path +
-                  " ends in a row cut short that cannot be mended: " + reason + ".");
-    }
+nlohmann::json parse_record(std::string_view text) {
+  constexpr int deepest = 32;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (c == '[' || c == '{') && ++depth > deepest)
+      return nlohmann::json(nlohmann::json::value_t::discarded);
+    else if (!quoted && (c == ']' || c == '}'))
+      --depth;
   }
-  return std::shared_ptr<Journal>(new Journal(file, path));
+  return nlohmann::json::parse(text, nullptr, false);
 }
 
-Journal::~Journal() { close_file(file_); }
-
-Result<void> Journal::append(const HistoryEntry& entry) { return append_line(row_text(entry)); }
-
-Result<void> Journal::append_head(std::uint32_t sequence) {
-  return append_line(head_text(sequence));
-}
-
-Result<void> Journal::append_name(std::uint32_t sequence, const std::string& name) {
-  return append_line(name_text(sequence, name));
-}
-
-Result<void> Journal::append_line(const std::string& line) {
-  const long long before = size_of(file_);
-  std::size_t done = 0;
-  while (done < line.size()) {
-    const auto written = write_some(file_, line.data() + done, line.size() - done);
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      const std::string reason = std::strerror(errno);
-      const bool cut = cut_to(file_, before) == 0;  // no half row for the next one to run into
-      return fail(
-          "The journal " + path_ + " cannot be written: " + reason +
-          (cut ? ". The edit was not made." : ". The edit was not made; close the session."));
-    }
-    done += static_cast<std::size_t>(written);
+bool holds_operations(const std::string& path) {
+  if (SessionFile::is_session(path)) return true;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) {
+    std::ifstream file(path, std::ios::binary);
+    char first = 0;
+    if (file >> std::ws >> first) return first == '{';
   }
-  if (make_durable(file_) != 0)
-    return fail("The journal " + path_ + " cannot be made durable: " + std::strerror(errno) + ".");
-  return {};
+  return path.ends_with(".arris") || path.ends_with(".jsonl");
+}
+
+std::optional<std::string> lost_scan(const std::string& path, const ReplayOptions& options) {
+  const Result<JournalContent> content = read_content(path, options);
+  if (!content) return std::nullopt;
+  for (const JournalRecord& record : content->records) {
+    const nlohmann::json& json = record.json;
+    const bool is_row = json.contains("operation") && json["operation"].is_object();
+    const Result<Operation> operation = Operation::from_json(is_row ? json["operation"] : json);
+    if (!operation || operation->name != "open" || !operation->parameters.contains("hash"))
+      continue;
+    const Result<Operation> resolved = resolve(Document{}, *operation);
+    if (!resolved) continue;
+    const std::string scan = opened_path(resolved->parameters);
+    if (!content->files->find(scan, resolved->parameters["hash"], {})) return scan;
+  }
+  return std::nullopt;
 }
 
 Result<Replay> replay(const std::string& path, const ReplayOptions& options,
                       const Context& context) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(path + " cannot be read: " + std::strerror(errno) + ".");
-  std::vector<std::string> lines;
-  bool ends_whole = true;
-  for (std::string line; std::getline(file, line);) {
-    ends_whole = !file.eof();
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    lines.push_back(std::move(line));
-  }
+  Result<JournalContent> content = read_content(path, options);
+  if (!content) return tl::unexpected<Error>(content.error());
+  const std::vector<JournalRecord>& records = content->records;
 
   Replay result;
+  result.history.set_files(content->files);
   std::unordered_map<std::uint32_t, std::uint32_t> row_of{{0, 0}};  // stored sequence to ours
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const std::string where = path + ", line " + std::to_string(k + 1) + ": ";
-    if (lines[k].find_first_not_of(" \t") == std::string::npos) continue;
-    const nlohmann::json json = nlohmann::json::parse(lines[k], nullptr, false);
-    if (json.is_discarded() || !json.is_object()) {
-      if (k + 1 == lines.size() && !ends_whole) {
-        result.warnings.push_back(where + "the last line was cut short and is left out.");
-        break;
-      }
-      return fail(where + "this is not a JSON object.");
+  std::size_t first = 0;                                            // record to be run
+  if (content->snapshot) {
+    Result<std::optional<Restored>> restored = restore(*content, context);
+    if (!restored) return tl::unexpected<Error>(restored.error());
+    if (*restored) {
+      result.history = std::move((*restored)->history);
+      first = (*restored)->records;
+      for (const HistoryEntry& entry : result.history.entries())
+        row_of[entry.sequence] = entry.sequence;
     }
+  }
+  for (std::size_t k = first; k < records.size(); ++k) {
+    const std::string where = path + ", " + records[k].where + ": ";
+    const nlohmann::json& json = records[k].json;
     const auto to_row = [&](const char* key) -> Result<std::uint32_t> {
       if (!json[key].is_number_unsigned() || json[key].get<std::uint64_t>() > 0xFFFFFFFFu ||
           !row_of.contains(json[key].get<std::uint32_t>()))
         return fail(where + "'" + key + "' names a row that is not there.");
-      return row_of[json[key].get<std::uint32_t>()];
+      return row_of.at(json[key].get<std::uint32_t>());
     };
     if (json.contains("head")) {
       const Result<std::uint32_t> row = to_row("head");
@@ -164,8 +223,8 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
         return fail(where + named.error().message);
       continue;
     }
-    const bool is_row =
-        json.contains("sequence") && json.contains("parent") && json["operation"].is_object();
+    const bool is_row = json.contains("sequence") && json.contains("parent") &&
+                        json.contains("operation") && json["operation"].is_object();
     Result<Operation> operation = Operation::from_json(is_row ? json["operation"] : json);
     if (!operation) return fail(where + operation.error().message);
     if (is_row) {
@@ -179,7 +238,7 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
       for (const char* key : {"file", "file_bytes", "hash"}) operation->parameters.erase(key);
       operation->parameters.update(open_file(options.scan).parameters);
     }
-    const double step = 1.0 / static_cast<double>(lines.size());
+    const double step = 1.0 / static_cast<double>(records.size());
     const Context part =
         context.part(static_cast<double>(k) * step, static_cast<double>(k + 1) * step);
     const Result<void> run = result.history.run(*operation, part);
@@ -198,6 +257,7 @@ Result<Replay> replay(const std::string& path, const ReplayOptions& options,
             where + "the result differs from the stored one (made by another build?).");
     }
   }
+  for (std::string& warning : content->warnings) result.warnings.push_back(std::move(warning));
   if (result.history.entries().empty()) return fail(path + " holds no operation.");
   return result;
 }
@@ -206,7 +266,7 @@ std::string journal_text(const History& history) {
   std::string text;
   for (const HistoryEntry& entry : history.entries()) text += row_text(entry);
   for (const auto& [sequence, name] : history.names()) text += name_text(sequence, name);
-  if (history.head() != history.entries().size()) text += head_text(history.head());
+  for (const std::uint32_t head : history.closing_moves()) text += head_text(head);
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/document/document.h"
 #include "core/document/operations/operations.h"
+#include "core/document/perform.h"
 #include "core/document/treatments/treatments.h"
 
 namespace arris {
@@ -106,11 +107,19 @@ Result<Operation> resolve(const Document& document, const Operation& operation) 
 
 Result<Performed> perform(const Document& document, const Operation& operation,
                           const Context& context) {
+  return perform(document, operation, nullptr, context);
+}
+
+Result<Performed> perform(const Document& document, const Operation& operation,
+                          const FileSource* files, const Context& context) {
   Result<Operation> complete = resolve(document, operation);
   if (!complete) return tl::unexpected<Error>(complete.error());
   nlohmann::json parameters = complete->parameters;
   parameters.erase(version_key);
-  Result<Document> result = find_operation(complete->name)->apply(document, parameters, context);
+  Result<Document> result =
+      complete->name == open_operation.name
+          ? open_scan_of(document, parameters, files, context)
+          : find_operation(complete->name)->apply(document, parameters, context);
   if (!result) return tl::unexpected<Error>(result.error());
   Document& after = *result;
   // Treatments carry the boundaries on by what they touch; whatever else changed them did not.

@@ -10,10 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/hash.h"
+#include "core/base/read_file.h"
 #include "core/mesh/foreign_file.h"
 #include "core/mesh/gunzip.h"
 #include "core/mesh/readers.h"
+#include "core/mesh/scan_content.h"
 #include "core/mesh/text_scanner.h"
 #include "core/mesh/within_memory.h"
 
@@ -21,47 +22,11 @@ namespace arris {
 
 namespace {
 
-struct FileContent {
-  std::unique_ptr<char[]> bytes;
-  std::size_t size = 0;
-};
-
 std::string in_lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return result;
-}
-
-/// The file is copied rather than mapped: a mapped file that another program shortens kills us.
-Result<FileContent> read_bytes(const std::string& path, const Context& context) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    return fail(path + ": there is no such file.");
-  if (error) return fail(path + " cannot be read: " + error.message() + ".");
-  if (std::filesystem::is_directory(status)) return fail(path + " is a directory, not a file.");
-  if (!std::filesystem::is_regular_file(status)) return fail(path + " is not an ordinary file.");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return fail(path + " cannot be read: " + error.message() + ".");
-  if (size == 0) return fail(path + " is empty.");
-
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail(path + " cannot be opened: " + std::strerror(errno) + ".");
-  FileContent content{std::make_unique_for_overwrite<char[]>(size), size};
-  constexpr std::size_t block = std::size_t{1} << 24;
-  for (std::size_t done = 0; done < size;) {
-    if (context.cancelled()) return cancelled();
-    const std::size_t wanted = std::min(block, size - done);
-    if (std::fread(content.bytes.get() + done, 1, wanted, file.get()) != wanted)
-      return fail(path + " could not be read to its end.");
-    done += wanted;
-    context.report(0.3 * static_cast<double>(done) / static_cast<double>(size), "reading");
-  }
-  return content;
 }
 
 using Reader = Result<void> (*)(const FileBytes&, PolygonFile&, const Context&);
@@ -131,16 +96,12 @@ tl::unexpected<Error> fail_no_faces(const std::string& path, const PolygonFile& 
               (points > 0 ? "; a surface must be made of its points first." : "."));
 }
 
-Result<PolygonFile> read_any(const std::string& path, const Context& context) {
-  Result<FileContent> content = read_bytes(path, context);
-  if (!content) return tl::unexpected(content.error());
-  const FileBytes whole{path, {content->bytes.get(), content->size}};
+Result<PolygonFile> read_any(const std::string& path, FileContent content, const Context& context) {
+  const FileBytes whole{path, content.view()};
 
   PolygonFile out;
-  out.bytes = content->size;
-  Hasher hasher;
-  hasher.bytes(whole.bytes.data(), whole.bytes.size());
-  out.content_hash = hasher.hex();
+  out.bytes = content.size;
+  out.content_hash = hash_of_content(content.view());
 
   FileBytes file = whole;
   std::string unpacked;
@@ -149,7 +110,7 @@ Result<PolygonFile> read_any(const std::string& path, const Context& context) {
     Result<std::string> result = gunzip(path, whole.bytes, context);
     if (!result) return tl::unexpected(result.error());
     unpacked = std::move(*result);
-    content->bytes.reset();
+    content.bytes.reset();
     file.bytes = unpacked;
   }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -159,7 +120,7 @@ Result<PolygonFile> read_any(const std::string& path, const Context& context) {
     return fail(path + " is empty" + (file.bytes.empty() ? "." : ": it holds nothing but blanks."));
   const Reader read = choose_reader(file);
   if (!read) return fail_foreign(path, file.bytes);
-  const Result<void> done = read(file, out, context.part(0.3, 1.0));
+  const Result<void> done = read(file, out, context);
   if (!done) return tl::unexpected(done.error());
   if (compressed) out.format += ", gzip";
   if (out.polygon_count() == 0) return fail_no_faces(path, out);
@@ -172,7 +133,16 @@ Result<PolygonFile> read_any(const std::string& path, const Context& context) {
 }  // namespace
 
 Result<PolygonFile> read_polygon_file(const std::string& path, const Context& context) {
-  return within_memory(path, [&] { return read_any(path, context); });
+  return within_memory(path, [&]() -> Result<PolygonFile> {
+    Result<FileContent> content = read_file(path, context.part(0.0, 0.3));
+    if (!content) return tl::unexpected(content.error());
+    return read_any(path, std::move(*content), context.part(0.3, 1.0));
+  });
+}
+
+Result<PolygonFile> read_polygon_content(const std::string& path, FileContent content,
+                                         const Context& context) {
+  return within_memory(path, [&] { return read_any(path, std::move(content), context); });
 }
 
 }  // namespace arris

@@ -6,6 +6,7 @@
 
 #include "core/mesh/build_mesh.h"
 #include "core/mesh/coordinate_step.h"
+#include "core/mesh/scan_content.h"
 #include "core/mesh/weld.h"
 #include "core/mesh/within_memory.h"
 
@@ -93,6 +94,13 @@ Result<BuiltMesh> build_joined(const PolygonFile& file, const ScanOptions& optio
 Result<ScanPtr> load_scan(const std::string& path, const Context& context,
                           const ScanOptions& options) {
   Result<PolygonFile> file = read_polygon_file(path, context.part(0.0, 0.4));
+  if (!file) return tl::unexpected(file.error());
+  return make_scan(std::move(*file), path, context.part(0.4, 1.0), options);
+}
+
+Result<ScanPtr> load_scan_content(const std::string& path, FileContent content,
+                                  const Context& context, const ScanOptions& options) {
+  Result<PolygonFile> file = read_polygon_content(path, std::move(content), context.part(0.0, 0.4));
   if (!file) return tl::unexpected(file.error());
   return make_scan(std::move(*file), path, context.part(0.4, 1.0), options);
 }

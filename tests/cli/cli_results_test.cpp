@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -213,6 +214,52 @@ TEST_F(Cli, NamedVersionsAreComparedAndWritten) {
   expect_bad_input({"compare", session, "tight"}, "as found");
   expect_bad_input({"replay", session, "--at", "tight", "-o", folder.file("no")}, "tight");
   expect_bad_usage({"compare", session});
+}
+
+TEST_F(Cli, ASessionIsOneFileThatNeedsNothingElse) {
+  const std::string part = small_part(), session = folder.file("one.arris");
+  expect_bad_input(
+      {"segment", part, "-o", folder.file("no"), "--session", folder.file("a/b.arris")}, "b.arris");
+  EXPECT_FALSE(fs::exists(folder.file("no"))) << "known before the work";
+  ASSERT_EQ(run({"segment", part, "-o", folder.file("one"), "--session", session}).code, 0);
+  fs::remove(part);
+  const Outcome replayed = run({"replay", session, "-o", folder.file("two"), "--session", session});
+  ASSERT_EQ(replayed.code, 0) << replayed.err;
+  EXPECT_EQ(replayed.err, "");
+  expect_same_files(folder, "one", "two");
+
+  // Under a name that says nothing, with a version named in between.
+  const std::string text = folder.read("two/operations.jsonl") +
+                           json{{"name", "as found"}, {"row", 2}}.dump() + "\n" +
+                           json{{"operation", "delete_lines"}, {"lines", {1}}}.dump() + "\n";
+  expect_bad_input({"replay", folder.write("edited.jsonl", text), "-o", folder.file("three")},
+                   "part.ply");
+  std::ofstream(part) << "another part";
+  expect_bad_input({"replay", folder.file("edited.jsonl"), "-o", folder.file("three")}, "changed");
+  fs::rename(session, folder.file("one.dat"));
+  expect_done({"replay", folder.file("one.dat"), "-o", folder.file("four")});
+  EXPECT_EQ(summary("four")["document_hash"], summary("one")["document_hash"]);
+
+  folder.write("cut.arris", folder.read("one.dat").substr(0, 20000));
+  expect_bad_input({"replay", folder.file("cut.arris"), "-o", folder.file("five")}, "cut.arris");
+  expect_bad_input({"compare", folder.file("cut.arris"), "as found"}, "cut.arris");
+  EXPECT_FALSE(fs::exists(folder.file("five")));
+}
+
+TEST_F(Cli, VersionsInASessionAreCompared) {
+  const std::string part = small_part(), session = folder.file("versions.arris");
+  ASSERT_EQ(run({"segment", part, "-o", folder.file("found")}).code, 0);
+  const std::string text = folder.read("found/operations.jsonl") +
+                           json{{"name", "as found"}, {"row", 3}}.dump() + "\n" +
+                           json{{"operation", "delete_lines"}, {"lines", {1}}}.dump() + "\n";
+  expect_done({"replay", folder.write("edited.jsonl", text), "-o", folder.file("edited"),
+               "--session", session});
+  fs::remove(part);
+  const Outcome told = run({"compare", session, "as found", "--json"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_GT(json::parse(told.out)["versions"][0]["only_here"]["sharp_length"], 0.0);
+  expect_done({"replay", session, "--at", "as found", "-o", folder.file("version")});
+  EXPECT_EQ(folder.read("version/lines.obj"), folder.read("found/lines.obj"));
 }
 
 TEST_F(Cli, SampleMouldThereAndBack) {

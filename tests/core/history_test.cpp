@@ -11,6 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/document/journal.h"
+#include "core/document/session_file.h"
 #include "tests/support/documents.h"
 
 namespace arris {
@@ -22,6 +23,19 @@ using nlohmann::json;
 void run_ok(History& history, const Operation& operation) {
   const Result<void> done = history.run(operation);
   ASSERT_TRUE(done) << operation.text() << ": " << done.error().message;
+}
+
+/// From here on the history is on disk, too, as in the window.
+void keep_in(History& history, const std::string& path) {
+  history.set_journal(value_of(SessionFile::start(path, history)));
+}
+
+/// What another reader finds in a session while it is written.
+std::vector<json> records_in(const std::string& path) {
+  std::vector<json> found;
+  for (JournalRecord& record : value_of(value_of(SessionFile::read(path))->records()))
+    found.push_back(std::move(record.json));
+  return found;
 }
 
 void ok(const Result<void>& done) { ASSERT_TRUE(done) << done.error().message; }
@@ -303,24 +317,22 @@ TEST_F(Travel, EditThatTouchesLittleCostsLittle) {
 // ---- journal ----
 
 TEST_F(Travel, JournalHoldsEveryRowAndMoveWhenTheCallReturns) {
-  const std::string journal = folder.file("journal.jsonl");
+  const std::string journal = folder.file("journal.arris");
   History history;
-  history.set_journal(value_of(Journal::open(journal)));
-  const auto rows = [&] { return std::ranges::count(folder.read("journal.jsonl"), '\n'); };
+  keep_in(history, journal);
+  const auto rows = [&] { return records_in(journal).size(); };
   run_ok(history, open());
-  EXPECT_EQ(rows(), 1);
+  EXPECT_EQ(rows(), 1u);
   run_ok(history, lines(30.0));
-  EXPECT_EQ(rows(), 2);
+  EXPECT_EQ(rows(), 2u);
   ok(history.undo());
-  EXPECT_EQ(rows(), 3);
+  EXPECT_EQ(rows(), 3u);
   run_ok(history, lines(50.0));
-  EXPECT_EQ(rows(), 4);
+  EXPECT_EQ(rows(), 4u);
   EXPECT_FALSE(history.run({"find_sharp_lines", {{"angle", -1}}}));
-  EXPECT_EQ(rows(), 4) << "what failed is no row";
+  EXPECT_EQ(rows(), 4u) << "what failed is no row";
   ok(history.travel(2));
-  std::istringstream text(folder.read("journal.jsonl"));
-  std::vector<json> objects;
-  for (std::string line; std::getline(text, line);) objects.push_back(json::parse(line));
+  const std::vector<json> objects = records_in(journal);
   EXPECT_EQ(objects[1]["sequence"], 2);
   EXPECT_EQ(objects[1]["parent"], 1);
   EXPECT_EQ(objects[1]["hash"], history.entries()[1].hash);
@@ -338,9 +350,9 @@ TEST_F(Travel, JournalHoldsEveryRowAndMoveWhenTheCallReturns) {
 
 TEST_F(Travel, JournalOnDiskGivesBackARandomSession) {
   Random random(5);
-  const std::string journal = folder.file("journal.jsonl");
+  const std::string journal = folder.file("journal.arris");
   History history;
-  history.set_journal(value_of(Journal::open(journal)));
+  keep_in(history, journal);
   run_ok(history, open());
   for (int k = 0; k < 120; ++k) {
     if (random.bits() % 4 == 0 && history.can_undo())
@@ -360,9 +372,9 @@ TEST_F(Travel, JournalOnDiskGivesBackARandomSession) {
 }
 
 TEST_F(Travel, VersionKeepsItsNameWhereverTheHeadIs) {
-  const std::string journal = folder.file("journal.jsonl");
+  const std::string journal = folder.file("journal.arris");
   History history;
-  history.set_journal(value_of(Journal::open(journal)));
+  keep_in(history, journal);
   run_ok(history, open());
   run_ok(history, lines(30.0));
   ok(history.set_name(2, "  tight \n"));
@@ -391,13 +403,13 @@ TEST_F(Travel, VersionKeepsItsNameWhereverTheHeadIs) {
 }
 
 TEST_F(Travel, NameThatCannotBeIsRefusedAndNothingChanges) {
-  const std::string journal = folder.file("journal.jsonl");
+  const std::string journal = folder.file("journal.arris");
   History history;
-  history.set_journal(value_of(Journal::open(journal)));
+  keep_in(history, journal);
   run_ok(history, open());
   run_ok(history, lines(30.0));
   ok(history.set_name(1, "as scanned"));
-  const std::string before = folder.read("journal.jsonl");
+  const std::string before = folder.read("journal.arris");
   for (const auto& [row, name] :
        std::vector<std::pair<std::uint32_t, std::string>>{{2, "as scanned"},
                                                           {0, "x"},
@@ -410,7 +422,7 @@ TEST_F(Travel, NameThatCannotBeIsRefusedAndNothingChanges) {
     EXPECT_TRUE(named.error().message.ends_with(".")) << named.error().message;
   }
   ok(history.set_name(1, "as scanned"));  // is so already
-  EXPECT_EQ(folder.read("journal.jsonl"), before);
+  EXPECT_EQ(folder.read("journal.arris"), before);
   EXPECT_EQ(history.names().size(), 1u);
 }
 
@@ -457,7 +469,7 @@ TEST_F(JournalFile, IsContinuedAfterACrashWithoutLosingWhatFollows) {
     const std::string journal = folder.write("torn.jsonl", text.substr(0, text.size() - cut));
     Replay after_crash = value_of(replay(journal));
     const std::size_t kept = after_crash.history.entries().size();
-    after_crash.history.set_journal(value_of(Journal::open(journal)));
+    keep_in(after_crash.history, journal);
     run_ok(after_crash.history, lines(45.0));
     run_ok(after_crash.history, areas(0.7));
     const Result<Replay> again = replay(journal);
@@ -551,31 +563,39 @@ TEST_F(JournalFile, DifferentResultIsTold) {
 }
 
 TEST_F(JournalFile, ThatCannotBeWrittenStopsTheEdit) {
-  EXPECT_FALSE(Journal::open(folder.file("no/such/folder/j.jsonl")));
-  EXPECT_FALSE(Journal::open(folder.path().string()));
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   History history;
+  EXPECT_FALSE(SessionFile::start(folder.file("no/such/folder/j.arris"), history));
+  EXPECT_FALSE(SessionFile::start(folder.path().string(), history));
+  EXPECT_FALSE(SessionFile::start("/dev/full", history));
   run_ok(history, open());
-  history.set_journal(value_of(Journal::open("/dev/full")));
+  const std::string journal = folder.file("j.arris");
+  keep_in(history, journal);
+  std::filesystem::remove(journal);
   const Result<void> done = history.run(lines(30.0));
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("/dev/full"), std::string::npos);
+  EXPECT_NE(done.error().message.find("j.arris was removed"), std::string::npos)
+      << done.error().message;
   EXPECT_EQ(history.entries().size(), 1u);
   EXPECT_EQ(history.head(), 1u);
   EXPECT_FALSE(history.undo()) << "undo is a row, too";
   EXPECT_EQ(history.head(), 1u);
+  // What is in memory is saved elsewhere, and goes on there.
+  const std::string elsewhere = folder.file("elsewhere.arris");
+  keep_in(history, elsewhere);
+  run_ok(history, lines(30.0));
+  EXPECT_EQ(hash_of(value_of(replay(elsewhere)).history.current()), hash_of(history.current()));
 }
 
 TEST_F(JournalFile, RowThatWasCutOffByAFullDiskDoesNotSpoilThoseAfterIt) {
-  const std::string journal = folder.file("full.jsonl");
+  const std::string journal = folder.file("full.arris");
   History history;
-  history.set_journal(value_of(Journal::open(journal)));
+  keep_in(history, journal);
   run_ok(history, open());
-  // The file may grow by 40 bytes only: less than a row.
+  // No file may grow beyond 40 bytes: less than a row.
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   rlimit small = limit;
-  small.rlim_cur = folder.read("full.jsonl").size() + 40;
+  small.rlim_cur = 40;
   const auto before = std::signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   const Result<void> failed = history.run(lines(30.0));

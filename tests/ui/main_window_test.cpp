@@ -426,20 +426,20 @@ TEST_F(MainWindowTest, ACrashLosesNothing) {
   // What a crash leaves behind: the journal as it stands, and no owner.
   const QDir folder(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
                     "/sessions");
-  const QStringList journals = folder.entryList({"*.jsonl"}, QDir::Files, QDir::Time);
+  const QStringList journals = folder.entryList({"*.arris"}, QDir::Files, QDir::Time);
   ASSERT_FALSE(journals.isEmpty());
-  EXPECT_TRUE(Session::abandoned_journals().isEmpty()) << "this window still works on it";
-  const QString left = folder.filePath("00000000-000000000-1.jsonl");
+  EXPECT_TRUE(Session::abandoned_sessions().isEmpty()) << "this window still works on it";
+  const QString left = folder.filePath("00000000-000000000-1.arris");
   QFile::remove(left);
   ASSERT_TRUE(QFile::copy(folder.filePath(journals.first()), left));
-  EXPECT_EQ(Session::abandoned_journals(), QStringList{left});
+  EXPECT_EQ(Session::abandoned_sessions(), QStringList{left});
 
   Session other;
   other.recover(left);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !other.busy(); }, patience));
   EXPECT_EQ(hash_of(other.current().document), before);
   EXPECT_EQ(other.history().entries().size(), rows());
-  EXPECT_TRUE(Session::abandoned_journals().isEmpty());
+  EXPECT_TRUE(Session::abandoned_sessions().isEmpty());
   other.close();
   EXPECT_FALSE(QFile::exists(left));
 }

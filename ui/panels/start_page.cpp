@@ -31,15 +31,20 @@ QFont scaled(const QFont& font, double factor, bool bold) {
   return result;
 }
 
-/// A recent file: its name, and its folder shortened in the middle.
+/// A recent file: its picture where it has one, its name, its kind and its folder.
 class FileButton : public QPushButton {
  public:
-  FileButton(const QString& file, QWidget* parent) : QPushButton(parent) {
+  /// `room`: for a picture, whether there is one or not.
+  FileButton(const QString& file, const QImage& picture, bool room, QWidget* parent)
+      : QPushButton(parent), picture_(picture), room_(room) {
     const QFileInfo info(file);
     name_ = info.fileName().isEmpty() ? file : info.fileName();
-    folder_ = QDir::toNativeSeparators(info.path());
+    const bool is_session = file.endsWith(".arris") || file.endsWith(".jsonl");
+    folder_ =
+        (is_session ? tr("Session") : tr("Scan")) + "  ·  " + QDir::toNativeSeparators(info.path());
     setToolTip(tr("Open %1").arg(QDir::toNativeSeparators(file)));
     setAccessibleName(name_);
+    setAccessibleDescription(folder_);
     setAutoDefault(false);
     setFlat(true);
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -61,8 +66,17 @@ class FileButton : public QPushButton {
       painter.setPen(QPen(accent, 2));
       painter.drawRect(rect().adjusted(1, 1, -1, -1));
     }
-    const QRect inner = rect().adjusted(8, 6, -8, -6);
+    QRect inner = rect().adjusted(8, 6, -8, -6);
     const int line = fontMetrics().height();
+    if (!picture_.isNull()) {
+      painter.setRenderHint(QPainter::SmoothPixmapTransform);
+      const QSize size =
+          picture_.size().scaled(width_of_picture, inner.height(), Qt::KeepAspectRatio);
+      QRect place(QPoint(), size);
+      place.moveCenter({inner.left() + width_of_picture / 2, inner.center().y()});
+      painter.drawImage(place, picture_);
+    }
+    if (room_) inner.setLeft(inner.left() + width_of_picture + 8);
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(inner.left(), inner.top(), inner.width(), line, Qt::AlignVCenter,
                      fontMetrics().elidedText(name_, Qt::ElideMiddle, inner.width()));
@@ -72,7 +86,10 @@ class FileButton : public QPushButton {
   }
 
  private:
+  static constexpr int width_of_picture = 46;  // pixels
   QString name_, folder_;
+  QImage picture_;
+  bool room_;
 };
 
 /// Number of a step in the tour, in a circle.
@@ -236,15 +253,17 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
 
 StartPage::~StartPage() = default;
 
-void StartPage::set_recent(const QStringList& files) {
+void StartPage::set_recent(const QStringList& files, const QList<QImage>& pictures) {
   for (FileButton* button : p_->files) {
     // Maybe it is a click on one of them that leads here.
     button->hide();
     button->deleteLater();
   }
   p_->files.clear();
-  for (const QString& file : files.first(std::min<qsizetype>(files.size(), most_recent))) {
-    auto* button = new FileButton(file, p_->page);
+  const bool room = std::ranges::any_of(pictures, [](const QImage& p) { return !p.isNull(); });
+  for (qsizetype k = 0; k < std::min<qsizetype>(files.size(), most_recent); ++k) {
+    const QString& file = files[k];
+    auto* button = new FileButton(file, pictures.value(k), room, p_->page);
     connect(button, &QPushButton::clicked, this, [this, file] { emit recent_wanted(file); });
     p_->recent->addWidget(button);
     p_->files.push_back(button);

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include <QImage>
+#include <QList>
 #include <QStringList>
 #include <QWidget>
 
@@ -13,7 +15,9 @@ class StartPage : public QWidget {
  public:
   explicit StartPage(QWidget* parent = nullptr);
   ~StartPage() override;
-  void set_recent(const QStringList& files);
+  /// Sessions are told from scans by their names; `pictures`, where given, is one for each file,
+  /// or a null one.
+  void set_recent(const QStringList& files, const QList<QImage>& pictures = {});
   /// One more step of the tour at the end of the list.
   void add_step(const QString& title, const QString& gist);
 

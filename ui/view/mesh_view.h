@@ -15,6 +15,7 @@
 #include "core/curvature/fields.h"
 #include "core/mesh/mesh.h"
 #include "ui/view/colour_scale.h"
+#include "ui/view/view_camera.h"
 
 namespace arris::ui {
 
@@ -175,7 +176,9 @@ class MeshView : public QOpenGLWidget {
   void look_against(const Point& towards_viewer);
   void look_from(StandardView view);  ///< z is up; fits the part.
   Point towards_viewer() const;
-  void zoom_by(double factor);  ///< Magnifies about the middle of the view.
+  const ViewCamera& camera() const;
+  void set_camera(const ViewCamera& camera);  ///< Its height within what the part allows.
+  void zoom_by(double factor);                ///< Magnifies about the middle of the view.
   /// Takes over how another view looks at its part: camera, section, surface, ground and light,
   /// what of lines and edges is visible. Not the scalar bar: two views side by side need one.
   void look_like(const MeshView& other);

@@ -111,6 +111,16 @@ bool MeshView::is_fitted() const { return impl_->mesh && impl_->camera == impl_-
 
 Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); }
 
+const ViewCamera& MeshView::camera() const { return impl_->camera; }
+
+void MeshView::set_camera(const ViewCamera& camera) {
+  uncover();
+  impl_->camera = camera;
+  impl_->camera.set_height(
+      std::clamp(camera.height(), impl_->least_height(), impl_->most_height()));
+  update();
+}
+
 void MeshView::look_against(const Point& towards_viewer) {
   uncover();
   impl_->look_upright(towards_viewer);

@@ -42,6 +42,7 @@ class ViewCamera {
   void frame(const std::vector<Point>& points, QSizeF size, double share, double least,
              QRectF area = {});
   void set_height(double height) { height_ = height; }
+  void set_focus(const Point& focus) { focus_ = focus; }
   bool operator==(const ViewCamera&) const = default;
 
  private:

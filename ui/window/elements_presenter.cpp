@@ -1,6 +1,7 @@
 #include "ui/window/elements_presenter.h"
 
 #include <cmath>
+#include <set>
 
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatment.h"
@@ -409,6 +410,31 @@ void ElementsPresenter::show_visibility() {
         return result;
       },
       [this](std::vector<bool> result) { view_->set_hidden_reference_faces(std::move(result)); });
+}
+
+nlohmann::json ElementsPresenter::saved_visibility() const {
+  const auto sorted = [](const Ids& ids) {
+    return std::set<std::uint32_t>(ids.begin(), ids.end());
+  };
+  return {{"hidden", sorted(hidden_)}, {"isolated", sorted(isolated_)}};
+}
+
+void ElementsPresenter::restore_visibility(const nlohmann::json& saved) {
+  const Document& document = session_->shown().document;
+  const auto ids = [&](const char* key) {
+    Ids found;
+    const auto list = saved.find(key);
+    if (list == saved.end() || !list->is_array()) return found;
+    for (const nlohmann::json& id : *list)
+      if (id.is_number_unsigned() && id.get<std::uint64_t>() <= 0xFFFFFFFFu &&
+          document.partitions.find(id.get<std::uint32_t>()))
+        found.insert(id.get<std::uint32_t>());
+    return found;
+  };
+  hidden_ = ids("hidden");
+  isolated_ = ids("isolated");
+  show_visibility();
+  emit visibility_changed();
 }
 
 void ElementsPresenter::clear_sets() {

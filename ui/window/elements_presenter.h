@@ -51,6 +51,9 @@ class ElementsPresenter : public QObject {
   void hide_selected();
   void isolate_selected();
   void show_all();
+  /// What is hidden and isolated, as a session keeps it.
+  nlohmann::json saved_visibility() const;
+  void restore_visibility(const nlohmann::json& saved);
   bool hides_any() const { return !hidden_.empty() || !isolated_.empty(); }
   bool isolates_any() const { return !isolated_.empty(); }
   /// Whether the faces of a partition (0: those of none) are hidden.

@@ -6,6 +6,7 @@
 #include "core/base/number_text.h"
 #include "core/mesh/face_quality.h"
 #include "core/simplification/occupancy.h"
+#include "ui/window/saved_view.h"
 
 namespace arris::ui {
 
@@ -130,6 +131,68 @@ void FieldPresenter::take(const ColourMapState& wanted) {
   }
   state() = wanted;
   refresh();
+}
+
+nlohmann::json FieldPresenter::saved() const {
+  const ColourMapState& s = states_[static_cast<std::size_t>(field_)];
+  const auto colour = [](const QColor& c) { return c.isValid() ? c.name().toStdString() : ""; };
+  return {{"name", info_of(field_).name},
+          {"map", static_cast<int>(s.scale.map)},
+          {"min", s.scale.min},
+          {"max", s.scale.max},
+          {"logarithmic", s.scale.logarithmic},
+          {"reversed", s.scale.reversed},
+          {"bands", s.scale.bands},
+          {"below", colour(s.scale.below)},
+          {"above", colour(s.scale.above)},
+          {"undefined", colour(s.scale.undefined)},
+          {"typed", s.range == ColourMapState::Range::typed},
+          {"low_percentile", s.low_percentile},
+          {"high_percentile", s.high_percentile},
+          {"locked", s.locked}};
+}
+
+void FieldPresenter::restore(const nlohmann::json& saved) {
+  const auto name = saved.find("name");
+  const std::optional<Field> field = name != saved.end() && name->is_string()
+                                         ? find_field(name->get<std::string>())
+                                         : std::nullopt;
+  if (!field || !is_available(*field)) return;
+  set_field(*field);
+  ColourMapState wanted = state();
+  ColourScale& scale = wanted.scale;
+  const double last_map = static_cast<double>(colour_map_names().size() - 1);
+  scale.map = static_cast<ColourMap>(
+      static_cast<int>(saved_number(saved, "map", static_cast<int>(scale.map), 0.0, last_map)));
+  const double min = saved_number(saved, "min", scale.min);
+  const double max = saved_number(saved, "max", scale.max);
+  if (min < max) {
+    scale.min = min;
+    scale.max = max;
+  }
+  scale.logarithmic = saved_flag(saved, "logarithmic", scale.logarithmic);
+  scale.reversed = saved_flag(saved, "reversed", scale.reversed);
+  constexpr double most_bands = 64.0;
+  scale.bands = static_cast<int>(saved_number(saved, "bands", scale.bands, 0.0, most_bands));
+  for (const auto& [key, to] : {std::pair{"below", &scale.below},
+                                {"above", &scale.above},
+                                {"undefined", &scale.undefined}}) {
+    const auto colour = saved.find(key);
+    if (colour == saved.end() || !colour->is_string()) continue;
+    const QColor named(QString::fromStdString(colour->get<std::string>()));
+    if (named.isValid() || to != &scale.undefined) *to = named;
+  }
+  wanted.range = saved_flag(saved, "typed", wanted.range == ColourMapState::Range::typed)
+                     ? ColourMapState::Range::typed
+                     : ColourMapState::Range::percentile;
+  const double low = saved_number(saved, "low_percentile", wanted.low_percentile, 0.0, 100.0);
+  const double high = saved_number(saved, "high_percentile", wanted.high_percentile, 0.0, 100.0);
+  if (low < high) {
+    wanted.low_percentile = low;
+    wanted.high_percentile = high;
+  }
+  wanted.locked = saved_flag(saved, "locked", wanted.locked);
+  take(wanted);
 }
 
 void FieldPresenter::work_out(LatestWork* work, const SharedLineEvidencePtr& evidence,

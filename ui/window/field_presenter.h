@@ -32,6 +32,9 @@ class FieldPresenter : public QObject {
   static QString why_not_available();  ///< One sentence, for tooltips.
   void set_field(Field field);
   Field field() const { return field_; }
+  /// The field with its range and colours, as a session keeps it; what cannot be is passed over.
+  nlohmann::json saved() const;
+  void restore(const nlohmann::json& saved);
   /// The field is still being worked out.
   bool working() const { return work_->running(); }
   const Distribution& distribution() const { return distribution_; }

@@ -38,7 +38,7 @@ constexpr int progress_delay = 300;  // ms: shorter work shows no progress
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
-  setWindowTitle("Arris");
+  setWindowTitle("Arris[*]");
   setAcceptDrops(true);
   // Drawing in between may leave them dirty.
   connect(QAbstractEventDispatcher::instance(), &QAbstractEventDispatcher::awake, this,
@@ -103,26 +103,14 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     if (!session_->is_previewing()) {
       refresh_history();
       refresh_actions();
+      refresh_title();
     }
   });
-  connect(session_, &Session::opened, this, [this] {
-    const Document& document = session_->current().document;
-    const QString path = QString::fromStdString(document.scan_path);
-    setWindowTitle(QFileInfo(path).fileName() + " – Arris");
-    // An open scan is shown from the side it was scanned from, a closed part from a corner.
-    const Point side = mean_normal(*document.mesh);
-    constexpr double open_scan = 0.15;
-    if (side.norm() > open_scan)
-      view_->look_against(side);
-    else
-      view_->look_from(MeshView::StandardView::isometric);
-    show_partitions(false);
-    view_->setFocus();
-    remember_recent(path);
-    if (!document.scan->report.clean())
-      statusBar()->showMessage(
-          tr("The scan was mended where a mesh cannot hold it: see Part ▸ Load report."), 10000);
-  });
+  connect(session_, &Session::opened, this, &MainWindow::take_opened);
+  // Once the session is no longer busy: the answer opens it again.
+  connect(session_, &Session::scan_lost, this, &MainWindow::ask_for_scan, Qt::QueuedConnection);
+  connect(session_, &Session::saved, this, &MainWindow::refresh_title);
+  connect(session_, &Session::names_changed, this, &MainWindow::refresh_title);
   connect(session_, &Session::done, this, [this](const QString& operation) {
     if (operation != "find_partitions") return;
     show_partitions(true);

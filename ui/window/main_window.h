@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <QMainWindow>
 
 #include "ui/window/comparison_presenter.h"
@@ -7,6 +9,7 @@
 #include "ui/window/elements_presenter.h"
 #include "ui/window/explanation_presenter.h"
 #include "ui/window/field_presenter.h"
+#include "ui/window/saved_view.h"
 #include "ui/window/section_presenter.h"
 #include "ui/window/session.h"
 #include "ui/window/stability_presenter.h"
@@ -46,8 +49,9 @@ class MainWindow : public QMainWindow {
   /// Opens a scan or a session; asks first where edits would be lost.
   void open(const QString& path);
   void open_sample();
-  /// Offers to go on with sessions that a crash left behind. Called once after show().
-  void offer_recovery();
+  /// Offers to go on with sessions that a crash left behind. Called once after show(). True: the
+  /// user goes on with one.
+  bool offer_recovery();
   void set_field(Field field);
   void show_partitions(bool shown);
   /// Saves the view; errors are shown to the user where `quiet` is not set. True: written.
@@ -88,9 +92,20 @@ class MainWindow : public QMainWindow {
   void choose_file();
   void choose_picture();
   void choose_results_folder();
-  void choose_session();
+  /// Saves the session where it is; asks where it is to be only where it is nowhere. False: it was
+  /// not saved.
+  bool save();
+  bool save_as();
+  bool save_to(const QString& path);
+  SessionExtras extras_to_save();
+  ViewKeepers view_keepers();
   /// True where the open session may go: nothing unsaved, or the user said so.
   bool may_leave_session();
+  /// Asks for a scan that a session was made on, and opens the session again with it.
+  void ask_for_scan(const QString& session, const QString& scan);
+  /// Shows what was opened, and how it was looked at.
+  void take_opened();
+  void refresh_title();
   void show_load_report();
   void show_about();
   void remember_recent(const QString& path);
@@ -145,6 +160,7 @@ class MainWindow : public QMainWindow {
   QAction* copy_picture_;
   QAction* export_;
   QAction* save_session_;
+  QAction* save_session_as_;
   QAction* undo_;
   QAction* redo_;
   QAction* run_lines_;
@@ -160,6 +176,10 @@ class MainWindow : public QMainWindow {
   QAction* show_partitions_;
   QActionGroup* field_actions_;
   std::vector<QAction*> part_actions_;  // need an open part
+  std::vector<QAction*> toggles_;       // what is visible
+  /// Opens what was asked for last, once more, with scans that were pointed at.
+  std::function<void(const QStringList& located)> open_again_;
+  QStringList located_;
 
   FocusRing* focus_ring_;
   QLabel* hover_label_;

@@ -35,8 +35,8 @@ void MainWindow::make_actions() {
   explanations_->add_actions(check);
   stability_->add_actions(check);
   make_help_menu();
-  for (QAction* a : {save_session_, save_picture_, copy_picture_, export_, report_, show_field_,
-                     show_partitions_, fit_, zoom_})
+  for (QAction* a : {save_session_, save_session_as_, save_picture_, copy_picture_, export_,
+                     report_, show_field_, show_partitions_, fit_, zoom_})
     part_actions_.push_back(a);
   for (QMenu* menu : findChildren<QMenu*>()) menu->setToolTipsVisible(true);
   make_tool_bars();
@@ -44,16 +44,19 @@ void MainWindow::make_actions() {
 
 void MainWindow::make_file_menu() {
   QMenu* file = menuBar()->addMenu(tr("&File"));
-  connect(
-      action(file, tr("&Open scan…"), QKeySequence::Open, tr("Open an STL, PLY, OBJ or OFF file")),
-      &QAction::triggered, this, &MainWindow::choose_file);
+  connect(action(file, tr("&Open scan…"), QKeySequence::Open,
+                 tr("Open an STL, PLY, OBJ, OFF or 3MF file, or a session")),
+          &QAction::triggered, this, &MainWindow::choose_file);
   connect(action(file, tr("Open the sample &mould"), QKeySequence("Ctrl+Shift+O"),
                  tr("Open the mould part that Arris makes itself")),
           &QAction::triggered, this, &MainWindow::open_sample);
   recent_menu_ = file->addMenu(tr("Open &recent"));
-  save_session_ = action(file, tr("&Save session…"), QKeySequence::Save,
-                         tr("Save the operations of this session; open them again to go on"));
-  connect(save_session_, &QAction::triggered, this, &MainWindow::choose_session);
+  save_session_ = action(file, tr("&Save session"), QKeySequence::Save,
+                         tr("Save scan, operations and view in one file; open it to go on"));
+  connect(save_session_, &QAction::triggered, this, &MainWindow::save);
+  save_session_as_ = action(file, tr("Save session &as…"), QKeySequence("Ctrl+Shift+S"),
+                            tr("Save the session in another file and go on with that"));
+  connect(save_session_as_, &QAction::triggered, this, &MainWindow::save_as);
   file->addSeparator();
   save_picture_ = action(file, tr("Save &picture…"), QKeySequence("Ctrl+P"),
                          tr("Save the view at a size in pixels, with its scalar bar"));
@@ -176,34 +179,39 @@ void MainWindow::make_field_menu(QMenu* menu) {
 
 void MainWindow::add_toggles(QMenu* look) {
   struct Toggle {
+    const char* name;  // as sessions keep it
     QString text, shortcut, tooltip;
     bool on;
     void (MeshView::*set)(bool);
   };
   for (const Toggle& t :
-       {Toggle{tr("&Lines"), "L", tr("Show lines and boundaries"), true,
+       {Toggle{"lines", tr("&Lines"), "L", tr("Show lines and boundaries"), true,
                &MeshView::set_lines_visible},
-        Toggle{tr("Mesh &edges"), "E", tr("Show the edges of the mesh"), false,
+        Toggle{"edges", tr("Mesh &edges"), "E", tr("Show the edges of the mesh"), false,
                &MeshView::set_edges_visible},
-        Toggle{tr("Flat s&hading"), "Shift+N",
+        Toggle{"flat", tr("Flat s&hading"), "Shift+N",
                tr("Shade each face by itself, as it is, instead of smooth between "
                   "sharp edges"),
                false, &MeshView::set_flat_shading},
-        Toggle{tr("Li&ght on field colours"), "Shift+L",
+        Toggle{"lit", tr("Li&ght on field colours"), "Shift+L",
                tr("Shade the colours of a field as the surface is lit; without "
                   "light they are exactly those of the scalar bar"),
                false, &MeshView::set_fields_lit},
-        Toggle{tr("&Scalar bar"), "B", tr("Show the scalar bar"), true,
+        Toggle{"scalar_bar", tr("&Scalar bar"), "B", tr("Show the scalar bar"), true,
                &MeshView::set_scalar_bar_visible}}) {
     QAction* a = action(look, t.text, QKeySequence(t.shortcut), t.tooltip);
     a->setCheckable(true);
     a->setChecked(t.on);
+    a->setObjectName(t.name);
+    toggles_.push_back(a);
     connect(a, &QAction::toggled, view_, t.set);
   }
   QAction* tangent = action(look, tr("Tan&gent lines"), QKeySequence("Ctrl+T"),
                             tr("Set off the Gn boundaries along which two surfaces touch, as at "
                                "both rims of a fillet"));
   tangent->setCheckable(true);
+  tangent->setObjectName("tangent_lines");
+  toggles_.push_back(tangent);
   connect(tangent, &QAction::toggled, elements_, &ElementsPresenter::set_tangent_lines_shown);
   QAction* dark = action(look, tr("&Dark"), QKeySequence("Ctrl+D"), tr("Light or dark window"));
   dark->setCheckable(true);
@@ -291,6 +299,8 @@ void MainWindow::refresh_actions() {
   const auto name = [&](std::uint32_t sequence) {
     return QString::fromStdString(describe(history.entries()[sequence - 1].operation));
   };
+  undo_->setStatusTip(part ? tr("Take back the last operation on %1").arg(session_->part_name())
+                           : tr("Take back the last operation"));
   // The first row is the opening of the part: there is nothing before it to go back to.
   set_available(undo_, history.head() > 1, part ? tr("There is nothing to undo.") : no_part);
   undo_->setText(history.head() > 1 ? tr("Undo: %1").arg(name(history.head())) : tr("Undo"));

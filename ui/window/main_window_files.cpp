@@ -1,6 +1,7 @@
 // What the main window reads and writes: scans, sessions, pictures and results.
 
 #include <QApplication>
+#include <QBuffer>
 #include <QDateTime>
 #include <QDir>
 #include <QFileDialog>
@@ -13,6 +14,7 @@
 #include <QStackedWidget>
 #include <QStandardPaths>
 #include <QStatusBar>
+#include <QTimer>
 
 #include "core/base/write_file.h"
 #include "core/document/export.h"
@@ -30,65 +32,181 @@ namespace {
 
 constexpr int most_recent = 10;
 
-/// Asks where to save what belongs to a part; empty: nowhere. The name proposed is the part's, the
-/// folder the one that was taken last for files of this kind, which `folder` names.
-QString choose_path(QWidget* parent, const Document& document, const QString& title,
-                    const QString& folder, const QString& ending, const QString& filter) {
-  QSettings settings;
-  const QFileInfo part(QString::fromStdString(document.scan_path));
-  QString path = QFileDialog::getSaveFileName(parent, title,
-                                              QDir(settings.value("folders/" + folder).toString())
-                                                  .filePath(part.completeBaseName() + "." + ending),
-                                              filter);
-  if (path.isEmpty()) return path;
-  if (QFileInfo(path).suffix().isEmpty()) path += "." + ending;
-  settings.setValue("folders/" + folder, QFileInfo(path).absolutePath());
+/// Asks where to save; empty: nowhere. The folder that is taken is remembered for files of this
+/// kind.
+QString choose_path(QWidget* parent, const QString& title, const QFileInfo& proposed,
+                    const QString& kind, const QString& filter) {
+  QFileDialog dialog(parent, title, proposed.absolutePath(), filter);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  // Not added afterwards: the question whether to replace a file is about its whole name.
+  dialog.setDefaultSuffix(proposed.suffix());
+  dialog.selectFile(proposed.fileName());
+  if (dialog.exec() != QDialog::Accepted || dialog.selectedFiles().isEmpty()) return {};
+  const QString path = dialog.selectedFiles().first();
+  QSettings().setValue("folders/" + kind, QFileInfo(path).absolutePath());
   return path;
 }
 
 }  // namespace
 
 void MainWindow::open(const QString& path) {
-  if (may_leave_session()) session_->open(path);
+  if (!may_leave_session()) return;
+  located_.clear();
+  open_again_ = [this, path](const QStringList& located) { session_->open(path, located); };
+  open_again_({});
+}
+
+void MainWindow::ask_for_scan(const QString& session, const QString& scan) {
+  const QString name = QFileInfo(scan).fileName();
+  QMessageBox box(QMessageBox::Question, "Arris",
+                  tr("Where is %1, the scan of this session?").arg(name), QMessageBox::NoButton,
+                  this);
+  box.setInformativeText(
+      located_.isEmpty()
+          ? tr("It is neither beside %1 nor at %2, or is another file there by now.")
+                .arg(QFileInfo(session).fileName(), scan)
+          : tr("%1 is not the file that was opened then: its content is another one.")
+                .arg(located_.last()));
+  QPushButton* locate = box.addButton(tr("Locate…"), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.setDefaultButton(locate);
+  box.exec();
+  if (box.clickedButton() != locate) return;
+  const QString found = QFileDialog::getOpenFileName(
+      this, tr("Locate %1").arg(name), QFileInfo(session).absolutePath(),
+      tr("Scans (*.stl *.ply *.obj *.off *.3mf *.gz);;All files (*)"));
+  if (found.isEmpty()) return;
+  located_ << found;
+  open_again_(located_);
+}
+
+void MainWindow::take_opened() {
+  const Document& document = session_->current().document;
+  // An open scan is shown from the side it was scanned from, a closed part from a corner.
+  const Point side = mean_normal(*document.mesh);
+  constexpr double open_scan = 0.15;
+  if (side.norm() > open_scan)
+    view_->look_against(side);
+  else
+    view_->look_from(MeshView::StandardView::isometric);
+  show_partitions(false);
+  restore_view(view_keepers(), session_->extras().view);
+  view_->setFocus();
+  refresh_title();
+  remember_recent(session_->file().isEmpty() ? QString::fromStdString(document.scan_path)
+                                             : session_->file());
+  statusBar()->showMessage(
+      document.scan->report.clean()
+          ? tr("Opened %1").arg(session_->part_name())
+          : tr("Opened %1. It was mended where a mesh cannot hold it: see Part ▸ Load report.")
+                .arg(session_->part_name()),
+      10000);
+  if (session_->is_read_only())
+    QTimer::singleShot(0, this, [this, file = session_->file()] {
+      QMessageBox::information(
+          this, "Arris",
+          tr("%1 is open in another window. It is read-only here: what you do can be saved under "
+             "another name.")
+              .arg(file));
+    });
+}
+
+void MainWindow::refresh_title() {
+  if (session_->current().document.empty()) return;
+  const QString name =
+      session_->file().isEmpty() ? session_->part_name() : QFileInfo(session_->file()).fileName();
+  setWindowTitle(name + (session_->is_read_only() ? tr(" (read-only)") : QString()) +
+                 "[*] – Arris");
+  setWindowModified(session_->has_unsaved_edits());
+}
+
+ViewKeepers MainWindow::view_keepers() {
+  return {view_, fields_, elements_, section_, view_presenter_, show_partitions_, toggles_};
+}
+
+SessionExtras MainWindow::extras_to_save() {
+  SessionExtras extras;
+  extras.view = saved_view(view_keepers());
+  // Small, for the list of recent files.
+  PictureOptions options;
+  options.size = {320, 240};
+  options.scalar_bar = options.scale_bar = options.orientation_marker = false;
+  QByteArray png;
+  QBuffer buffer(&png);
+  if (const QImage image = view_->picture(options);
+      !image.isNull() && buffer.open(QIODevice::WriteOnly) && image.save(&buffer, "PNG"))
+    extras.picture = png.toStdString();
+  return extras;
 }
 
 bool MainWindow::may_leave_session() {
   if (!session_->has_unsaved_edits()) return true;
-  QMessageBox box(QMessageBox::Question, "Arris", tr("Save the edits of this session?"),
-                  QMessageBox::NoButton, this);
+  QMessageBox box(QMessageBox::Question, "Arris",
+                  tr("Save the edits of %1?").arg(session_->part_name()), QMessageBox::NoButton,
+                  this);
   box.setInformativeText(
       tr("A saved session opens again with its whole history. Discarded edits are lost."));
-  QPushButton* save = box.addButton(tr("Save session…"), QMessageBox::AcceptRole);
+  QPushButton* save_it = box.addButton(tr("Save"), QMessageBox::AcceptRole);
   QPushButton* discard = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
   box.addButton(QMessageBox::Cancel);
-  box.setDefaultButton(save);
+  box.setDefaultButton(save_it);
   box.exec();
   if (box.clickedButton() == discard) return true;
-  if (box.clickedButton() != save) return false;
-  choose_session();
-  return !session_->has_unsaved_edits();
+  return box.clickedButton() == save_it && save();
 }
 
-void MainWindow::choose_session() {
-  const QString path = choose_path(this, session_->current().document, tr("Save session"),
-                                   "sessions", "jsonl", tr("Arris session (*.jsonl)"));
-  if (path.isEmpty()) return;
-  const Result<void> written =
-      write_file_whole(path.toStdString(), journal_text(session_->history()));
-  if (!written) {
-    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
-    return;
+bool MainWindow::save() {
+  const bool has_file = !session_->file().isEmpty() && !session_->is_read_only();
+  return has_file ? save_to(session_->file()) : save_as();
+}
+
+bool MainWindow::save_as() {
+  QFileInfo suggested(session_->file());
+  if (session_->file().isEmpty()) {
+    QString folder = QSettings().value("folders/sessions").toString();
+    // Beside its scan, but not where the sample lies, which nobody looks into.
+    const QFileInfo scan(QString::fromStdString(session_->current().document.scan_path));
+    const QString own = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+    if (folder.isEmpty())
+      folder = scan.absolutePath() == QFileInfo(own).absoluteFilePath() || !scan.dir().exists()
+                   ? QDir::homePath()
+                   : scan.absolutePath();
+    suggested.setFile(QDir(folder), scan.completeBaseName() + ".arris");
   }
-  session_->mark_saved();
-  statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
+  const QString path =
+      choose_path(this, tr("Save session"), suggested, "sessions", tr("Arris session (*.arris)"));
+  return !path.isEmpty() && save_to(path);
 }
 
-void MainWindow::offer_recovery() {
-  for (const QString& journal : Session::abandoned_journals()) {
+bool MainWindow::save_to(const QString& path) {
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  const Result<void> written = session_->save(path, extras_to_save());
+  QApplication::restoreOverrideCursor();
+  if (written) {
+    statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
+    remember_recent(path);
+    return true;
+  }
+  QMessageBox box(QMessageBox::Warning, "Arris", QString::fromStdString(written.error().message),
+                  QMessageBox::NoButton, this);
+  box.setInformativeText(
+      tr("Nothing is lost: the session is as it was, and can be saved "
+         "elsewhere."));
+  QPushButton* elsewhere = box.addButton(tr("Save as…"), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.setDefaultButton(elsewhere);
+  box.exec();
+  return box.clickedButton() == elsewhere && save_as();
+}
+
+bool MainWindow::offer_recovery() {
+  for (const QString& recovery : Session::abandoned_sessions()) {
+    const QString part = Session::part_of(recovery);
     QMessageBox box(
         QMessageBox::Question, "Arris",
-        tr("A session of %1 was not closed.")
-            .arg(QLocale::c().toString(QFileInfo(journal).lastModified(), "yyyy-MM-dd hh:mm")),
+        tr("The session of %1 from %2 was not closed.")
+            .arg(part.isEmpty() ? tr("a part") : part,
+                 QLocale::c().toString(QFileInfo(recovery).lastModified(), "yyyy-MM-dd hh:mm")),
         QMessageBox::NoButton, this);
     box.setInformativeText(tr("It is complete up to its last edit. Go on with it?"));
     QPushButton* go_on = box.addButton(tr("Go on"), QMessageBox::AcceptRole);
@@ -97,12 +215,17 @@ void MainWindow::offer_recovery() {
     box.setDefaultButton(go_on);
     box.exec();
     if (box.clickedButton() == discard) {
-      Session::discard_journal(journal);
+      Session::discard(recovery);
     } else if (box.clickedButton() == go_on) {
-      session_->recover(journal);
-      return;
+      located_.clear();
+      open_again_ = [this, recovery](const QStringList& located) {
+        session_->recover(recovery, located);
+      };
+      open_again_({});
+      return true;
     }
   }
+  return false;
 }
 
 void MainWindow::open_sample() {
@@ -122,7 +245,7 @@ void MainWindow::choose_file() {
   QSettings settings;
   const QString path = QFileDialog::getOpenFileName(
       this, tr("Open scan"), settings.value("folders/open").toString(),
-      tr("Scans and sessions (*.stl *.ply *.obj *.off *.3mf *.gz *.jsonl);;All files (*)"));
+      tr("Scans and sessions (*.stl *.ply *.obj *.off *.3mf *.gz *.arris *.jsonl);;All files (*)"));
   if (path.isEmpty()) return;
   settings.setValue("folders/open", QFileInfo(path).absolutePath());
   open(path);
@@ -154,8 +277,10 @@ void MainWindow::choose_picture() {
   PictureDialog dialog(picture_options_, stack_->size(), this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
-  const QString path = choose_path(this, session_->current().document, tr("Save picture"),
-                                   "pictures", "png", tr("PNG (*.png);;JPEG (*.jpg)"));
+  const QString name = QFileInfo(session_->part_name()).completeBaseName() + ".png";
+  const QFileInfo proposed(QDir(QSettings().value("folders/pictures").toString()), name);
+  const QString path =
+      choose_path(this, tr("Save picture"), proposed, "pictures", tr("PNG (*.png);;JPEG (*.jpg)"));
   if (path.isEmpty()) return;
   QString error;
   if (save_picture(path, picture_options_, &error))
@@ -172,20 +297,34 @@ void MainWindow::choose_results_folder() {
   if (folder.isEmpty()) return;
   settings.setValue("folders/results", folder);
   const Document& document = session_->current().document;
-  const auto path = [&](const char* name) { return QDir(folder).filePath(name).toStdString(); };
-  Result<void> written = write_file_whole(path("lines.obj"), lines_obj(document));
-  if (written) written = write_file_whole(path("boundaries.obj"), boundaries_obj(document));
+  // Named by the part, so that results of several parts fit into one folder.
+  const QString part = QFileInfo(session_->part_name()).completeBaseName();
+  const auto name = [&](const char* what) { return part + "_" + what; };
+  const auto path = [&](const char* what) { return QDir(folder).filePath(name(what)); };
+  constexpr const char *lines = "lines.obj", *boundaries = "boundaries.obj",
+                       *scan = "scan_partitions.ply", *operations = "operations.jsonl";
+  QStringList all, there;
+  for (const char* what : {lines, boundaries, scan, operations}) {
+    all << name(what);
+    if (QFileInfo::exists(path(what))) there << name(what);
+  }
+  if (!there.isEmpty()) {
+    QMessageBox box(QMessageBox::Question, "Arris",
+                    tr("Replace what was exported to this folder before?"), QMessageBox::NoButton,
+                    this);
+    box.setInformativeText(tr("%1 in %2 would be replaced.").arg(there.join(", "), folder));
+    QPushButton* replace = box.addButton(tr("Replace"), QMessageBox::AcceptRole);
+    box.addButton(QMessageBox::Cancel);
+    box.exec();
+    if (box.clickedButton() != replace) return;
+  }
+  const auto to = [&](const char* what) { return path(what).toStdString(); };
+  Result<void> written = write_file_whole(to(lines), lines_obj(document));
+  if (written) written = write_file_whole(to(boundaries), boundaries_obj(document));
+  if (written) written = write_labelled_scan(to(scan), *document.scan, labels_on_scan(document));
+  if (written) written = write_file_whole(to(operations), journal_text(session_->history()));
   if (written)
-    written =
-        write_labelled_scan(path("scan_partitions.ply"), *document.scan, labels_on_scan(document));
-  if (written)
-    written = write_file_whole(path("operations.jsonl"), journal_text(session_->history()));
-  if (written) session_->mark_saved();
-  if (written)
-    statusBar()->showMessage(
-        tr("lines.obj, boundaries.obj, scan_partitions.ply and operations.jsonl written to %1")
-            .arg(folder),
-        8000);
+    statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), folder), 8000);
   else
     QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
 }
@@ -226,7 +365,13 @@ void MainWindow::remember_recent(const QString& path) {
 
 void MainWindow::refresh_recent() {
   const QStringList recent = QSettings().value("recent").toStringList();
-  start_page_->set_recent(recent);
+  QList<QImage> pictures;
+  for (const QString& path : recent) {
+    const std::string png = SessionFile::picture_of(path.toStdString());
+    pictures << QImage::fromData(reinterpret_cast<const uchar*>(png.data()),
+                                 static_cast<int>(png.size()), "PNG");
+  }
+  start_page_->set_recent(recent, pictures);
   recent_menu_->clear();
   recent_menu_->setEnabled(!recent.isEmpty());
   for (const QString& path : recent)

@@ -8,6 +8,7 @@
 
 #include "ui/panels/section_bar.h"
 #include "ui/window/actions.h"
+#include "ui/window/saved_view.h"
 
 namespace arris::ui {
 
@@ -118,6 +119,27 @@ void SectionPresenter::cut(Direction direction, const Point& normal,
                        : direction == Direction::view ? tr("along the view")
                                                       : tr("through points");
   bar_->show_plane(name, low, high, position_);
+  show();
+}
+
+nlohmann::json SectionPresenter::saved() const {
+  return {{"direction", static_cast<int>(direction_)},
+          {"axis", {axis_.x(), axis_.y(), axis_.z()}},
+          {"position", position_},
+          {"flipped", flipped_}};
+}
+
+void SectionPresenter::restore(const nlohmann::json& saved) {
+  const auto last = static_cast<double>(Direction::three_points);
+  const auto direction =
+      static_cast<Direction>(static_cast<int>(saved_number(saved, "direction", 0.0, 0.0, last)));
+  const std::optional<Point> axis = saved_point(saved, "axis");
+  constexpr double rounding = 1e-6;
+  if (direction == Direction::off || session_->shown().document.empty() || !axis ||
+      !(std::abs(axis->norm() - 1.0) < rounding))
+    return choose(Direction::off);
+  cut(direction, *axis, saved_number(saved, "position", 0.0));
+  flipped_ = saved_flag(saved, "flipped", flipped_);
   show();
 }
 

@@ -23,6 +23,9 @@ class SectionPresenter : public QObject {
   SectionPresenter(Session* session, MeshView* view, SectionBar* bar, QObject* parent);
 
   void add_actions(QMenu* menu);
+  /// The plane as it stands, as a session keeps it; what cannot be is passed over.
+  nlohmann::json saved() const;
+  void restore(const nlohmann::json& saved);
 
  signals:
   void message(const QString& text);

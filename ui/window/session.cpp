@@ -8,10 +8,13 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFile>
+#include <QFileInfo>
+#include <QRandomGenerator>
+#include <QSaveFile>
 #include <QStandardPaths>
 
+#include "core/base/keyed_hash.h"
 #include "core/base/vector_state.h"
-#include "core/base/write_file.h"
 #include "core/document/journal.h"
 
 namespace arris::ui {
@@ -147,9 +150,53 @@ void Session::finish_work() {
   if (wanted_preview_) start_preview();
 }
 
-void Session::open(const QString& path) {
-  if (path.endsWith(".jsonl", Qt::CaseInsensitive))
-    open_journal(path, false);
+namespace {
+
+QString recovery_folder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/sessions";
+}
+
+std::unique_ptr<QLockFile> lock_of(const QString& recovery) {
+  auto lock = std::make_unique<QLockFile>(recovery + ".lock");
+  lock->setStaleLockTime(0);
+  return lock;
+}
+
+/// The user's own key, made when it is first wanted. Empty where it can be neither read nor kept:
+/// sessions open by running their operations then.
+std::string own_key() {
+  QDir().mkpath(recovery_folder());
+  const QString path = recovery_folder() + "/snapshot.key";
+  QFile file(path);
+  if (file.open(QIODevice::ReadOnly)) {
+    const QByteArray kept = file.read(hash_key_size + 1);
+    if (kept.size() == hash_key_size) return kept.toStdString();
+    file.close();
+  }
+  QByteArray made(hash_key_size, Qt::Uninitialized);
+  for (char& byte : made) byte = static_cast<char>(QRandomGenerator::system()->generate());
+  QSaveFile kept(path);
+  if (!kept.open(QIODevice::WriteOnly)) return {};
+  kept.setPermissions(QFile::ReadOwner | QFile::WriteOwner);
+  kept.write(made);
+  return kept.commit() ? made.toStdString() : std::string();
+}
+
+std::vector<std::string> to_std(const QStringList& texts) {
+  std::vector<std::string> result;
+  for (const QString& text : texts) result.push_back(text.toStdString());
+  return result;
+}
+
+QString name_of_part(const Document& document) {
+  return QFileInfo(QString::fromStdString(document.scan_path)).fileName();
+}
+
+}  // namespace
+
+void Session::open(const QString& path, const QStringList& located) {
+  if (holds_operations(path.toStdString()))
+    open_session(path, located);
   else
     open_scan(path, nullptr);
 }
@@ -158,95 +205,221 @@ void Session::open_made(const QString& path, std::function<Result<void>()> make)
   open_scan(path, std::move(make));
 }
 
-void Session::recover(const QString& journal) { open_journal(journal, true); }
+Result<Session::Recovery> Session::start_recovery(const History& history,
+                                                  const SessionExtras& extras,
+                                                  const Context& context) {
+  static std::atomic<unsigned> serial = 0;
+  QDir().mkpath(recovery_folder());
+  Recovery recovery;
+  recovery.path = recovery_folder() + "/" +
+                  QDateTime::currentDateTimeUtc().toString("yyyyMMdd-hhmmsszzz") + "-" +
+                  QString::number(QCoreApplication::applicationPid()) + "-" +
+                  QString::number(serial++) + ".arris";
+  recovery.lock = lock_of(recovery.path);
+  recovery.lock->tryLock(0);
+  Result<std::shared_ptr<SessionFile>> file =
+      SessionFile::start(recovery.path.toStdString(), history, extras, context);
+  if (!file) return tl::unexpected<Error>(file.error());
+  recovery.file = std::move(*file);
+  return recovery;
+}
 
-void Session::open_journal(const QString& path, bool go_on) {
+void Session::keep(Opened& opened, const Context& context) {
+  SessionExtras extras = opened.extras;
+  extras.key = own_key();
+  extras.part = name_of_part(opened.shown.document).toStdString();
+  extras.saved_as = opened.read_only ? "" : opened.file.toStdString();
+  Result<Recovery> recovery = start_recovery(opened.history, extras, context);
+  if (recovery)
+    opened.recovery = std::move(*recovery);
+  else
+    opened.no_recovery = recovery.error();
+}
+
+Result<Session::Opened> Session::replayed(const QString& path, const QStringList& located,
+                                          const Context& context) {
+  const std::string file = path.toStdString();
+  Opened opened;
+  Result<Replay> replayed =
+      replay(file, {.located = to_std(located), .key = own_key()}, context.part(0.0, 0.9));
+  if (!replayed) return tl::unexpected<Error>(replayed.error());
+  opened.history = std::move(replayed->history);
+  opened.warnings = std::move(replayed->warnings);
+  opened.shown = shown_document(opened.history.current());
+  if (SessionFile::is_session(file)) {
+    const auto session = SessionFile::read(file);
+    const Result<SessionExtras> extras =
+        session ? (*session)->extras() : tl::unexpected<Error>(session.error());
+    if (!extras) return tl::unexpected<Error>(extras.error());
+    opened.extras = *extras;
+  }
+  return opened;
+}
+
+void Session::tell(const Error& error, const QString& session, const QStringList& located) {
+  std::optional<std::string> lost;
+  if (!error.cancelled) lost = lost_scan(session.toStdString(), {.located = to_std(located)});
+  if (lost)
+    emit scan_lost(session, QString::fromStdString(*lost));
+  else
+    tell(error);
+}
+
+void Session::open_session(const QString& path, const QStringList& located) {
   if (busy_) return;
   cancel_preview();
   start_work(
-      [path](const Context& context) {
-        Result<Replay> replayed = replay(path.toStdString(), {}, context);
-        ShownDocument shown;
-        if (replayed) shown = shown_document(replayed->history.current());
-        return std::pair(std::move(replayed), std::move(shown));
+      [path, located](const Context& context) {
+        // The lock comes first, so that no other window saves between reading and locking.
+        const std::string file = path.toStdString();
+        const bool is_file = SessionFile::is_session(file);
+        std::unique_ptr<FileLock> lock = is_file ? FileLock::take(file) : nullptr;
+        Result<Opened> opened = replayed(path, located, context);
+        if (!opened) return opened;
+        if (is_file) opened->file = QFileInfo(path).absoluteFilePath();
+        opened->read_only = is_file && !lock;
+        opened->lock = std::move(lock);
+        keep(*opened, context.part(0.9, 1.0));
+        return opened;
       },
-      [this, path, go_on](std::pair<Result<Replay>, ShownDocument> opened_part) {
-        auto& [replayed, shown] = opened_part;
-        if (!replayed) return tell(replayed.error());
-        take_over(std::move(replayed->history), go_on ? path : QString());
-        mark_saved();
-        if (go_on) saved_head_ = 0;
-        show(std::move(shown));
-        for (const auto* step :
-             {&current_.document.find_sharp_lines, &current_.document.find_partitions})
-          if (*step && !(*step)->parameters.value("corrections", true))
-            applies_corrections_ = false;
-        emit opened();
-        for (const std::string& warning : replayed->warnings)
-          emit failed(QString::fromStdString(warning));
+      [this, path, located](Result<Opened> opened) {
+        if (!opened) return tell(opened.error(), path, located);
+        take_over(std::move(*opened));
       });
 }
 
-void Session::take_over(History history, const QString& journal) {
+void Session::recover(const QString& path, const QStringList& located) {
+  if (busy_) return;
+  cancel_preview();
+  const auto lock = std::make_shared<std::unique_ptr<QLockFile>>(lock_of(path));
+  if (!(*lock)->tryLock(0)) {
+    emit failed(tr("Another window goes on with this session already."));
+    return;
+  }
+  start_work(
+      [path, located, lock](const Context& context) -> Result<Opened> {
+        const bool is_text = !SessionFile::is_session(path.toStdString());
+        std::shared_ptr<SessionFile> file;
+        if (!is_text) {  // what was half written when it crashed is taken back
+          auto gone_on = SessionFile::go_on(path.toStdString());
+          if (!gone_on) return tl::unexpected<Error>(gone_on.error());
+          file = std::move(*gone_on);
+        }
+        Result<Opened> opened = replayed(path, located, context);
+        if (!opened) return opened;
+        opened->unsaved = true;
+        const std::string saved_as = std::exchange(opened->extras.saved_as, "");
+        if (auto its_own = FileLock::take(saved_as); !saved_as.empty() && its_own) {
+          opened->file = QString::fromStdString(saved_as);
+          opened->lock = std::move(its_own);
+        }
+        if (is_text) {  // as older versions left it
+          keep(*opened, context.part(0.9, 1.0));
+          if (!opened->no_recovery) {
+            (*lock)->unlock();
+            QFile::remove(path);
+          }
+        } else {
+          opened->recovery = {path, std::move(*lock), std::move(file)};
+        }
+        return opened;
+      },
+      [this, path, located](Result<Opened> opened) {
+        if (!opened) return tell(opened.error(), path, located);
+        take_over(std::move(*opened));
+      });
+}
+
+void Session::set_recovery(Recovery recovery) {
+  recovery_ = std::move(recovery);
+  history_.set_journal(recovery_.file);
+  if (recovery_.file) history_.set_files(SessionFile::files(recovery_.file));
+}
+
+void Session::take_over(Opened opened) {
   close();
-  history_ = std::move(history);
-  start_journal(journal);
+  history_ = std::move(opened.history);
+  set_recovery(std::move(opened.recovery));
+  file_ = opened.file;
+  file_lock_ = std::move(opened.lock);
+  read_only_ = opened.read_only;
+  extras_ = std::move(opened.extras);
   seconds_.clear();
+  if (opened.seconds > 0.0) seconds_ = {{"open", opened.seconds}};
   applies_corrections_ = true;
-}
-
-namespace {
-
-QString journal_folder() {
-  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/sessions";
-}
-
-QString lock_of(const QString& journal) { return journal + ".lock"; }
-
-}  // namespace
-
-void Session::start_journal(const QString& path) {
-  journal_path_ = path;
-  if (path.isEmpty()) {
-    QDir().mkpath(journal_folder());
-    const QString name = QDateTime::currentDateTimeUtc().toString("yyyyMMdd-hhmmsszzz") + "-" +
-                         QString::number(QCoreApplication::applicationPid());
-    journal_path_ = journal_folder() + "/" + name + ".jsonl";
-  }
-  journal_lock_ = std::make_unique<QLockFile>(lock_of(journal_path_));
-  journal_lock_->setStaleLockTime(0);
-  journal_lock_->tryLock(0);
-  const std::string file = journal_path_.toStdString();
-  // Rows of before, whole and without what a crash cut short.
-  Result<void> written = write_file_whole(file, journal_text(history_));
-  if (written) {
-    Result<std::shared_ptr<Journal>> journal = Journal::open(file);
-    if (journal)
-      history_.set_journal(std::move(*journal));
-    else
-      written = tl::unexpected<Error>(journal.error());
-  }
-  if (!written)
+  saved_head_ = opened.unsaved ? 0 : history_.head();
+  saved_names_ = history_.names();
+  show(std::move(opened.shown));
+  for (const auto* step : {&current_.document.find_sharp_lines, &current_.document.find_partitions})
+    if (*step && !(*step)->parameters.value("corrections", true)) applies_corrections_ = false;
+  emit this->opened();
+  if (opened.no_recovery)
     emit failed(tr("This session cannot be recovered after a crash: %1")
-                    .arg(QString::fromStdString(written.error().message)));
+                    .arg(QString::fromStdString(opened.no_recovery->message)));
+  for (const std::string& warning : opened.warnings) emit failed(QString::fromStdString(warning));
 }
 
-QStringList Session::abandoned_journals() {
+QString Session::part_name() const { return name_of_part(current_.document); }
+
+Result<void> Session::save(const QString& path, const SessionExtras& given) {
+  const std::string file = QFileInfo(path).absoluteFilePath().toStdString();
+  if (busy_) return fail(tr("Wait until the work that runs is done.").toStdString());
+  const bool is_own = file == file_.toStdString() && !read_only_;
+  if (!is_own && FileLock::is_taken(file))
+    return fail(tr("%1 is open in another window. Choose another name.").arg(path).toStdString());
+  SessionExtras extras = given;
+  extras.key = own_key();
+  extras.part = part_name().toStdString();
+  extras.saved_as.clear();
+  if (const auto written = save_session(file, history_, extras); !written) return written;
+  file_ = QString::fromStdString(file);
+  file_lock_ = FileLock::take(file);
+  read_only_ = false;
+  // A recovery session that went, or was none, begins anew. One that cannot is no fault of saving.
+  extras.saved_as = file;
+  if (!recovery_.file || !recovery_.file->set_saved_as(file)) {
+    Result<Recovery> recovery = start_recovery(history_, extras, {});
+    if (recovery) set_recovery(std::move(*recovery));
+  }
+  mark_saved();
+  return {};
+}
+
+QStringList Session::abandoned_sessions() {
   QStringList found;
-  const QDir folder(journal_folder());
+  const QDir folder(recovery_folder());
   for (const QString& name :
-       folder.entryList({"*.jsonl"}, QDir::Files, QDir::Name | QDir::Reversed)) {
+       folder.entryList({"*.arris", "*.jsonl"}, QDir::Files, QDir::Name | QDir::Reversed)) {
     const QString path = folder.filePath(name);
-    QLockFile lock(lock_of(path));
-    lock.setStaleLockTime(0);
-    if (!lock.tryLock(0)) continue;  // another window works on it
-    lock.unlock();
+    const auto lock = lock_of(path);
+    if (!lock->tryLock(0)) continue;  // another window works on it
+    lock->unlock();
     found << path;
   }
   return found;
 }
 
-void Session::discard_journal(const QString& journal) { QFile::remove(journal); }
+QString Session::part_of(const QString& recovery) {
+  const std::string path = recovery.toStdString();
+  if (SessionFile::is_session(path)) {
+    const auto session = SessionFile::go_on(path);  // it is ours, and may be half written
+    const Result<SessionExtras> extras =
+        session ? (*session)->extras() : tl::unexpected<Error>(session.error());
+    return extras ? QString::fromStdString(extras->part) : QString();
+  }
+  QFile file(recovery);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  const nlohmann::json row = parse_record(file.readLine().toStdString());
+  const nlohmann::json operation =
+      row.is_object() ? row.value("operation", nlohmann::json()) : nlohmann::json();
+  if (!operation.is_object() || !operation.value("file", nlohmann::json()).is_string()) return {};
+  return QFileInfo(QString::fromStdString(operation["file"].get<std::string>())).fileName();
+}
+
+void Session::discard(const QString& recovery) {
+  QFile::remove(recovery);
+  QFile::remove(recovery + "-journal");
+}
 
 bool Session::has_unsaved_edits() const {
   const bool edited =
@@ -256,36 +429,35 @@ bool Session::has_unsaved_edits() const {
 
 void Session::close() {
   history_.set_journal(nullptr);
-  if (!journal_path_.isEmpty()) QFile::remove(journal_path_);
-  journal_path_.clear();
-  journal_lock_.reset();
+  history_.set_files(nullptr);
+  recovery_.file.reset();
+  if (!recovery_.path.isEmpty()) discard(recovery_.path);
+  recovery_ = {};
+  file_.clear();
+  file_lock_.reset();
+  read_only_ = false;
 }
 
 void Session::open_scan(const QString& path, std::function<Result<void>()> make) {
   if (busy_) return;
   cancel_preview();
   start_work(
-      [operation = Operation{"open", {{"file", path.toStdString()}}},
-       make = std::move(make)](const Context& context) -> Outcome {
+      [operation = open_file(path.toStdString()),
+       make = std::move(make)](const Context& context) -> Result<Opened> {
         const auto begin = Clock::now();
         const Result<void> made = make ? make() : Result<void>();
-        if (!made) return {tl::unexpected<Error>(made.error()), {}, 0.0};
-        Outcome outcome = outcome_of(Document{}, operation, context);
-        outcome.seconds = seconds_since(begin);
-        return outcome;
+        if (!made) return tl::unexpected<Error>(made.error());
+        Opened opened;
+        if (const auto run = opened.history.run(operation, context.part(0.0, 0.9)); !run)
+          return tl::unexpected<Error>(run.error());
+        opened.shown = shown_document(opened.history.current());
+        opened.seconds = seconds_since(begin);
+        keep(opened, context.part(0.9, 1.0));
+        return opened;
       },
-      [this](Outcome outcome) {
-        if (!outcome.performed) return tell(outcome.performed.error());
-        History history;
-        const Result<void> committed = history.commit(std::move(outcome.performed->operation),
-                                                      std::move(outcome.performed->document));
-        if (!committed) return tell(committed.error());
-        take_over(std::move(history), {});
-        saved_head_ = 0;
-        saved_names_.clear();
-        seconds_ = {{"open", outcome.seconds}};
-        show(std::move(outcome.shown));
-        emit opened();
+      [this](Result<Opened> opened) {
+        if (!opened) return tell(opened.error());
+        take_over(std::move(*opened));
         emit done("open");
       });
 }

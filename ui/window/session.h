@@ -12,7 +12,9 @@
 #include <QString>
 #include <QStringList>
 
+#include "core/base/file_lock.h"
 #include "core/document/history.h"
+#include "core/document/session_file.h"
 #include "core/partitions/boundaries.h"
 #include "ui/window/worker.h"
 
@@ -27,6 +29,11 @@ struct ShownDocument {
 /// The open part: its history, and the work on it, which runs on a thread of its own. All calls and
 /// all signals are on the UI thread, and so is every change of the history: the worker only makes
 /// documents.
+///
+/// A saved session is a document as in any other program: save() writes the file whole, and it
+/// stays as it is until the next save(). What is done between goes, row by row and durable, to a
+/// recovery session in the user's state folder, which a crash leaves behind and closing removes. So
+/// a file never holds what nobody saved, can lie on any disk, and can be put back by not saving.
 class Session : public QObject {
   Q_OBJECT
  public:
@@ -55,23 +62,40 @@ class Session : public QObject {
   /// Whether the work is going to another row of the history: undo() and redo() are taken then, and
   /// done one after the other.
   bool travelling() const { return travelling_; }
-  /// Opens a scan, or replays a session (*.jsonl), in a history of its own. The open part stays
-  /// until the new one is there.
-  void open(const QString& path);
+  /// Opens a scan or a session (its content decides) in a history of its own. The open part stays
+  /// until the new one is there. `located`: files pointed at, for scans that a session names and
+  /// that are not where they were (scan_lost()). A session that another window has open is opened
+  /// read-only.
+  void open(const QString& path, const QStringList& located = {});
   /// The same, for a file that `make` writes first (on the worker thread).
   void open_made(const QString& path, std::function<Result<void>()> make);
-  /// Goes on with the journal that a crash left behind (see abandoned_journals()).
-  void recover(const QString& journal);
-  /// Journals of sessions that ended without being closed, newest first.
-  static QStringList abandoned_journals();
-  static void discard_journal(const QString& journal);
-  /// True where there are edits that were not written to a session file or results folder.
+  /// The file of the session, to which it is saved; empty where it was never saved.
+  const QString& file() const { return file_; }
+  /// Another window has the session open: what is done here can be saved under another name only.
+  bool is_read_only() const { return read_only_; }
+  /// The name of the part: that of its scan's file.
+  QString part_name() const;
+  /// What the session that was opened holds beside its history.
+  const SessionExtras& extras() const { return extras_; }
+  /// Writes the session to a file, which is its file from then on. Errors: cannot be written,
+  /// another window has that file open, work is running; the session is as it was then.
+  Result<void> save(const QString& path, const SessionExtras& extras);
+
+  /// Goes on with a session that a crash left behind (see abandoned_sessions()).
+  void recover(const QString& recovery, const QStringList& located = {});
+  /// Recovery sessions that ended without being closed, newest first.
+  static QStringList abandoned_sessions();
+  /// The name of the part of such a session; empty where it cannot be told.
+  static QString part_of(const QString& recovery);
+  static void discard(const QString& recovery);
+  /// True where there are edits that were not saved.
   bool has_unsaved_edits() const;
   void mark_saved() {
     saved_head_ = history_.head();
     saved_names_ = history_.names();
+    emit saved();
   }
-  /// Removes the journal: the session was closed on purpose.
+  /// Removes the recovery session: this one was closed on purpose.
   void close();
   /// Runs operations one after the other, each a history entry; stops at the first that fails.
   void run(std::vector<Operation> operations);
@@ -99,6 +123,11 @@ class Session : public QObject {
   void changed(bool other_mesh);
   /// A file was opened (after changed()).
   void opened();
+  /// `session` was not opened: the scan that it was made on is nowhere to be found. Whoever knows
+  /// where it is opens the session again and says so.
+  void scan_lost(const QString& session, const QString& scan);
+  /// All edits are in the file now, or need not be.
+  void saved();
   void busy_changed(bool busy);
   void progress(double fraction, const QString& what);
   /// The preview was taken back by something else than its commit.
@@ -137,18 +166,47 @@ class Session : public QObject {
   void run_next();
   void start_preview();
   void drop_preview();
+  /// Where every edit goes before its result is shown.
+  struct Recovery {
+    QString path;
+    std::unique_ptr<QLockFile> lock;  // tells other windows that it is in use
+    std::shared_ptr<SessionFile> file;
+  };
+  static Result<Recovery> start_recovery(const History& history, const SessionExtras& extras,
+                                         const Context& context);
+  /// What opening a file gives, made on the worker thread.
+  struct Opened {
+    History history;
+    ShownDocument shown;
+    SessionExtras extras;
+    std::vector<std::string> warnings;
+    Recovery recovery;
+    std::optional<Error> no_recovery;  // why there is none
+    QString file;
+    std::unique_ptr<FileLock> lock;
+    bool read_only = false;
+    bool unsaved = false;
+    double seconds = 0.0;
+  };
   void open_scan(const QString& path, std::function<Result<void>()> make);
-  void open_journal(const QString& path, bool go_on);
-  /// From here on every edit is on disk before its result is shown.
-  void start_journal(const QString& path);
-  /// The history of another part from here on, journalled to `journal` (empty: a new file).
-  void take_over(History history, const QString& journal);
+  void open_session(const QString& path, const QStringList& located);
+  static Result<Opened> replayed(const QString& path, const QStringList& located,
+                                 const Context& context);
+  /// Keeps what was opened safe from here on.
+  static void keep(Opened& opened, const Context& context);
+  void set_recovery(Recovery recovery);
+  void take_over(Opened opened);
+  /// Tells why a session was not opened.
+  void tell(const Error& error, const QString& session, const QStringList& located);
   Context context_of_work();
   void show(ShownDocument wanted);
 
   History history_;
-  std::unique_ptr<QLockFile> journal_lock_;  // tells other windows that the journal is in use
-  QString journal_path_;
+  Recovery recovery_;
+  QString file_;
+  std::unique_ptr<FileLock> file_lock_;
+  bool read_only_ = false;
+  SessionExtras extras_;
   std::uint32_t saved_head_ = 0;
   std::map<std::uint32_t, std::string> saved_names_;
   ShownDocument current_;

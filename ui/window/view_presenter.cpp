@@ -100,7 +100,7 @@ void ViewPresenter::add_tool_actions(QMenu* menu) {
 }
 
 void ViewPresenter::set_surface(ShownSurface surface) {
-  view_->set_surface(surface);
+  view_->set_surface(reference_ ? surface : ShownSurface::mesh);
   refresh();
 }
 

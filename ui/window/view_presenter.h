@@ -24,12 +24,14 @@ class ViewPresenter : public QObject {
   /// Hide, isolate, show all: for the context menu.
   QList<QAction*> visibility_actions() const { return {hide_, isolate_, show_all_}; }
 
+  /// Means the mesh where nothing was simplified or swapped.
+  void set_surface(ShownSurface surface);
+
  signals:
   void message(const QString& text);
 
  private:
   void take_document(bool other_mesh);
-  void set_surface(ShownSurface surface);
   void refresh();
 
   Session* session_;

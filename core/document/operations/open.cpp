@@ -1,9 +1,11 @@
-#include "core/document/operations/operations.h"
-
 #include <charconv>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "core/document/operations/operations.h"
+#include "core/document/perform.h"
+#include "core/mesh/scan_content.h"
 
 namespace arris {
 
@@ -32,12 +34,6 @@ std::optional<std::string> from_hexadecimal(const std::string& text) {
   return bytes;
 }
 
-std::string path_of(const nlohmann::json& parameters) {
-  if (parameters.contains("file_bytes"))
-    return from_hexadecimal(parameters["file_bytes"]).value_or("");
-  return parameters.at("file");
-}
-
 Result<nlohmann::json> resolve_open(const Document&, const nlohmann::json& given) {
   ParameterReader reader("open", given);
   const std::string file = reader.text("file", "");
@@ -62,9 +58,38 @@ nlohmann::json upgrade_open(int, nlohmann::json parameters) {
 
 Result<Document> apply_open(const Document& document, const nlohmann::json& parameters,
                             const Context& context) {
-  const std::string path = path_of(parameters);
+  return open_scan_of(document, parameters, nullptr, context);
+}
+
+std::string words_of_open(const nlohmann::json& parameters) {
+  const std::string path = parameters.value("file", "");
+  const std::size_t slash = path.find_last_of("/\\");
+  return "Open " + (slash == std::string::npos ? path : path.substr(slash + 1));
+}
+
+}  // namespace
+
+const OperationKind open_operation{"open",     "Open",        2,           resolve_open,
+                                   apply_open, words_of_open, upgrade_open};
+
+std::string opened_path(const nlohmann::json& parameters) {
+  if (parameters.contains("file_bytes"))
+    return from_hexadecimal(parameters["file_bytes"]).value_or("");
+  return parameters.at("file");
+}
+
+Result<Document> open_scan_of(const Document& document, const nlohmann::json& parameters,
+                              const FileSource* files, const Context& context) {
+  const std::string path = opened_path(parameters);
   const ScanOptions options{.weld = parameters.at("weld")};
-  Result<ScanPtr> scan = load_scan(path, context.part(0.0, 0.7), options);
+  const auto load = [&]() -> Result<ScanPtr> {
+    if (!files || !parameters.contains("hash"))
+      return load_scan(path, context.part(0.0, 0.7), options);
+    Result<FileContent> content = files->find(path, parameters["hash"], context.part(0.0, 0.2));
+    if (!content) return tl::unexpected<Error>(content.error());
+    return load_scan_content(path, std::move(*content), context.part(0.2, 0.7), options);
+  };
+  const Result<ScanPtr> scan = load();
   if (!scan) return tl::unexpected<Error>(scan.error());
   if (parameters.contains("hash") && parameters["hash"] != (*scan)->report.content_hash)
     return fail(path + " is not the file that was opened then: its content has changed.");
@@ -81,17 +106,6 @@ Result<Document> apply_open(const Document& document, const nlohmann::json& para
   result.next_id = document.next_id;  // ids are never used twice in one history
   return result;
 }
-
-std::string words_of_open(const nlohmann::json& parameters) {
-  const std::string path = parameters.value("file", "");
-  const std::size_t slash = path.find_last_of("/\\");
-  return "Open " + (slash == std::string::npos ? path : path.substr(slash + 1));
-}
-
-}  // namespace
-
-const OperationKind open_operation{"open",     "Open",        2,           resolve_open,
-                                   apply_open, words_of_open, upgrade_open};
 
 Operation open_file(const std::string& path, bool weld) {
   nlohmann::json parameters{{"file", path}};

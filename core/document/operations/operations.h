@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/file_source.h"
 #include "core/document/document.h"
 #include "core/document/operation.h"
 #include "core/document/parameters.h"
@@ -8,6 +9,10 @@
 namespace arris {
 
 extern const OperationKind open_operation;
+/// What open_operation does, with the file taken from `files` where its content is known by a hash;
+/// null: it is where it was.
+Result<Document> open_scan_of(const Document& document, const nlohmann::json& parameters,
+                              const FileSource* files, const Context& context);
 extern const OperationKind flip_orientation_operation;
 extern const OperationKind delete_faces_operation;
 extern const OperationKind find_sharp_lines_operation;
