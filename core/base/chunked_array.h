@@ -22,12 +22,14 @@ class ChunkedArray {
   static constexpr std::size_t chunk_size = 512;
 
   ChunkedArray() = default;
-  /// `size` elements, all `value`; the chunks are one and the same until written.
+  /// `size` elements, all `value`; the full chunks are one and the same until written.
   explicit ChunkedArray(std::size_t size, const T& value = T()) : size_(size) {
     if (size == 0) return;
     auto chunk = std::make_shared<Chunk>();
     chunk->values.fill(value);
-    spine_ = std::make_shared<Spine>((size + chunk_size - 1) / chunk_size, std::move(chunk));
+    spine_ = std::make_shared<Spine>((size + chunk_size - 1) / chunk_size, chunk);
+    // A chunk remembers the hash of as many values as count in it: what counts less is another one.
+    if (size % chunk_size != 0) spine_->back() = std::make_shared<Chunk>(chunk->values);
   }
   /// Takes the values of `values`; chunks equal to those of `previous` are shared with it.
   ChunkedArray(const std::vector<T>& values, const ChunkedArray& previous) : size_(values.size()) {
@@ -39,7 +41,9 @@ class ChunkedArray {
       const std::size_t count = std::min(chunk_size, size_ - begin);
       const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
       const auto last = first + static_cast<std::ptrdiff_t>(count);
-      if (previous.size_ >= begin + count) {
+      // One that other many values count in has another hash.
+      if (previous.size_ >= begin + count &&
+          std::min(chunk_size, previous.size_ - begin) == count) {
         const std::shared_ptr<Chunk>& theirs = (*previous.spine_)[begin / chunk_size];
         if (std::equal(first, last, theirs->values.begin())) {
           spine_->push_back(theirs);
