@@ -22,6 +22,8 @@ constexpr std::size_t most_fitted = 4000;  // vertices
 /// Mean misfit from which on no surface explains a partition. Scans are off their surfaces by more
 /// than their noise says: by what is wrong with the calibration, and with the part.
 constexpr double most_misfit = 6.0;
+/// Misfit from which on a blend may be the better answer, and up to which share of it it is.
+constexpr double doubtful = 2.0, better_blend = 0.7;
 /// Any smooth area is a torus of some kind for a while. Blends are what is one: a tube of up to so
 /// many mean edges about a ring that is wider.
 constexpr double widest_blend = 15.0;
@@ -111,11 +113,14 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.steps = 12;
         options.near = options.most;
         FittedSurface fit = fit_surface(samples, noise, options);
-        if (fit.misfit > most_misfit || says_nothing(fit.surface)) {
-          const std::optional<FittedSurface> blend = fit_blend(samples, noise, most_misfit);
-          if (!blend) return;
-          fit = *blend;
-        }
+        bool explained = fit.misfit <= most_misfit && !says_nothing(fit.surface);
+        if (!explained || fit.misfit > doubtful)
+          if (const std::optional<FittedSurface> blend =
+                  fit_blend(samples, noise, explained ? better_blend * fit.misfit : most_misfit)) {
+            fit = *blend;
+            explained = true;
+          }
+        if (!explained) return;
         double sum = 0.0;
         std::size_t within = 0;
         for (const VertexId v : vertices) {
