@@ -501,6 +501,30 @@ Result<SessionExtras> SessionFile::extras() const {
   return extras;
 }
 
+Result<bool> hold_the_same(const SessionFile& a, const SessionFile& b) {
+  struct Held {
+    std::vector<nlohmann::json> rows, names;
+    std::uint64_t head = 0;
+    bool operator==(const Held&) const = default;
+  };
+  std::array<Held, 2> held;
+  for (std::size_t k = 0; k < 2; ++k) {
+    Result<std::vector<JournalRecord>> records = (k == 0 ? a : b).records();
+    if (!records) return tl::unexpected<Error>(records.error());
+    for (JournalRecord& record : *records) {
+      if (record.json.contains("sequence")) {
+        held[k].head = record.json["sequence"];
+        held[k].rows.push_back(std::move(record.json));
+      } else if (record.json.contains("head")) {
+        held[k].head = record.json["head"];
+      } else {
+        held[k].names.push_back(std::move(record.json));
+      }
+    }
+  }
+  return held[0] == held[1];
+}
+
 Result<void> save_session(const std::string& path, const History& history,
                           const SessionExtras& extras, const Context& context) {
   const auto fill = [&](const std::string& part) -> Result<void> {

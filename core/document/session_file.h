@@ -100,6 +100,10 @@ class SessionFile : public Journal {
   Database database_;
 };
 
+/// Whether two sessions hold the same operations and names of versions, and stand at the same row.
+/// The way there, and how the part was looked at, do not count. Errors: as records().
+Result<bool> hold_the_same(const SessionFile& a, const SessionFile& b);
+
 /// Writes a history as a session, replacing `path` only by a whole new file. Scans come from
 /// history.files(), or from where they were opened. Errors: cannot be written, a scan is nowhere to
 /// be found any more, cancelled.

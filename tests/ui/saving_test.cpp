@@ -396,6 +396,40 @@ TEST_F(Saving, AfterACrashThePartIsNamedAndGoneOnWithWhereItWasSaved) {
   EXPECT_FALSE(QFile::exists(left));
 }
 
+TEST_F(Saving, AfterACrashNobodyIsAskedForWhatWasSaved) {
+  const QDir recoveries(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+                        "/sessions");
+  const auto crash = [&] {
+    const QStringList own = recoveries.entryList({"*.arris"});
+    EXPECT_EQ(own.size(), 1);
+    return left_by_a_crash(recoveries.filePath(own[0]), ".arris");
+  };
+  open_sample();
+  edit(30.0);
+  edit(40.0);
+  save_to(folder.filePath("mould.arris"));
+  const QString left = crash();
+  EXPECT_TRUE(Session::abandoned_sessions().isEmpty()) << "all of it is in mould.arris";
+  EXPECT_FALSE(QFile::exists(left));
+
+  // What was undone since is not.
+  window->session().undo();
+  ASSERT_TRUE(wait_until_open(*window));
+  const QString undone = crash();
+  EXPECT_EQ(Session::abandoned_sessions(), QStringList{undone});
+
+  // Nor is anything where the file is gone.
+  window->session().redo();
+  ASSERT_TRUE(wait_until_open(*window));
+  QFile::remove(undone);
+  const QString redone = crash();
+  ASSERT_TRUE(QFile::rename(folder.filePath("mould.arris"), folder.filePath("elsewhere.arris")));
+  EXPECT_EQ(Session::abandoned_sessions(), QStringList{redone});
+  ASSERT_TRUE(QFile::rename(folder.filePath("elsewhere.arris"), folder.filePath("mould.arris")));
+  EXPECT_TRUE(Session::abandoned_sessions().isEmpty()) << "undone and redone is as it was";
+  window->session().mark_saved();
+}
+
 TEST_F(Saving, ARecoveryOfAnOlderVersionIsOfferedToo) {
   open_sample();
   edit(30.0);

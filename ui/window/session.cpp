@@ -385,6 +385,21 @@ Result<void> Session::save(const QString& path, const SessionExtras& given) {
   return {};
 }
 
+namespace {
+
+/// Whether all that a recovery session holds is in the file that was saved last, too.
+bool is_saved(const std::string& recovery) {
+  if (!SessionFile::is_session(recovery)) return false;
+  const auto session = SessionFile::go_on(recovery);  // it is ours, and may be half written
+  const Result<SessionExtras> extras =
+      session ? (*session)->extras() : tl::unexpected<Error>(session.error());
+  if (!extras || extras->saved_as.empty()) return false;
+  const auto saved = SessionFile::read(extras->saved_as);
+  return saved && hold_the_same(**session, **saved) == true;
+}
+
+}  // namespace
+
 QStringList Session::abandoned_sessions() {
   QStringList found;
   const QDir folder(recovery_folder());
@@ -393,8 +408,11 @@ QStringList Session::abandoned_sessions() {
     const QString path = folder.filePath(name);
     const auto lock = lock_of(path);
     if (!lock->tryLock(0)) continue;  // another window works on it
+    if (is_saved(path.toStdString()))
+      discard(path);  // nothing would be lost: no reason to ask
+    else
+      found << path;
     lock->unlock();
-    found << path;
   }
   return found;
 }
