@@ -24,6 +24,7 @@
 #include "core/document/flow.h"
 #include "core/document/history.h"
 #include "core/document/journal.h"
+#include "core/document/results.h"
 #include "core/document/session_file.h"
 #include "core/mesh/write_ply.h"
 #include "core/partitions/partition_surfaces.h"
@@ -179,8 +180,7 @@ nlohmann::json summary_of(const History& history) {
   return summary;
 }
 
-constexpr const char* result_names[] = {"lines.obj", "boundaries.obj", "scan_partitions.ply",
-                                        "operations.jsonl", "summary.json"};
+constexpr const char* summary_name = "summary.json";
 
 /// Where a run leaves what it found.
 struct ResultPlaces {
@@ -196,13 +196,15 @@ Result<void> check_results(const ResultPlaces& places) {
     if (const auto ready = check_writable(places.session); !ready) return ready;
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) return {};
-  for (const char* name : result_names)
-    if (const auto ready = check_writable((std::filesystem::path(folder) / name).string()); !ready)
-      return ready;
-  return {};
+  const auto check = [&](std::string_view name) {
+    return check_writable((std::filesystem::path(folder) / name).string());
+  };
+  for (const ResultFile& file : result_files())
+    if (const auto ready = check(file.name); !ready) return ready;
+  return check(summary_name);
 }
 
-/// The result_names, and the session.
+/// The result files, the summary and the session.
 Result<void> write_results(const ResultPlaces& places, const History& history,
                            nlohmann::json summary) {
   const std::string& folder = places.folder;
@@ -210,23 +212,18 @@ Result<void> write_results(const ResultPlaces& places, const History& history,
   std::filesystem::create_directories(folder, code);
   if (code) return fail("The folder " + folder + " cannot be made: " + code.message() + ".");
   const Document& document = history.current();
-  const auto path = [&](const char* name) {
+  const auto path = [&](std::string_view name) {
     return (std::filesystem::path(folder) / name).string();
   };
-  if (auto r = write_file_whole(path("lines.obj"), lines_obj(document)); !r) return r;
-  if (auto r = write_file_whole(path("boundaries.obj"), boundaries_obj(document)); !r) return r;
-  if (auto r = write_labelled_scan(path("scan_partitions.ply"), *document.scan,
-                                   labels_on_scan(document));
-      !r)
-    return r;
-  if (auto r = write_file_whole(path("operations.jsonl"), journal_text(history)); !r) return r;
+  for (const ResultFile& file : result_files())
+    if (auto r = file.write(path(file.name), history); !r) return r;
   if (!places.session.empty()) {
     SessionExtras extras;
     extras.part = std::filesystem::path(document.scan_path).filename().string();
     if (auto r = save_session(places.session, history, extras, progress_context()); !r) return r;
   }
   summary["peak_memory_mb"] = rounded(peak_memory_mb(), 4);
-  return write_file_whole(path("summary.json"), summary.dump(2) + "\n");
+  return write_file_whole(path(summary_name), summary.dump(2) + "\n");
 }
 
 void print_outcome(const std::string& folder, const nlohmann::json& summary) {

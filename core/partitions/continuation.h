@@ -28,7 +28,7 @@ struct ContinuationOptions {
 double tear_between(const Surface& a, const Surface& b, const Eigen::Vector3d& place,
                     const ContinuationOptions& options = {});
 
-/// Two surfaces as one chain, or as a blend where both are tubes of about one radius. Whether they
+/// Two surfaces as one chain, or as a blend where both are tubes, of the mean radius. Whether they
 /// continue one another is not looked at. `weight_a`, `weight_b`: how much each says of the radius.
 Surface continued(const Surface& a, double weight_a, const Surface& b, double weight_b,
                   const ContinuationOptions& options = {});

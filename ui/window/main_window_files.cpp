@@ -16,9 +16,7 @@
 #include <QStatusBar>
 #include <QTimer>
 
-#include "core/base/write_file.h"
-#include "core/document/export.h"
-#include "core/document/journal.h"
+#include "core/document/results.h"
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
 #include "ui/panels/controls.h"
@@ -296,17 +294,16 @@ void MainWindow::choose_results_folder() {
       settings.value("folders/results").toString());
   if (folder.isEmpty()) return;
   settings.setValue("folders/results", folder);
-  const Document& document = session_->current().document;
   // Named by the part, so that results of several parts fit into one folder.
   const QString part = QFileInfo(session_->part_name()).completeBaseName();
-  const auto name = [&](const char* what) { return part + "_" + what; };
-  const auto path = [&](const char* what) { return QDir(folder).filePath(name(what)); };
-  constexpr const char *lines = "lines.obj", *boundaries = "boundaries.obj",
-                       *scan = "scan_partitions.ply", *operations = "operations.jsonl";
+  const auto name = [&](const ResultFile& file) {
+    return part + "_" + QString::fromUtf8(file.name.data(), qsizetype(file.name.size()));
+  };
+  const auto path = [&](const ResultFile& file) { return QDir(folder).filePath(name(file)); };
   QStringList all, there;
-  for (const char* what : {lines, boundaries, scan, operations}) {
-    all << name(what);
-    if (QFileInfo::exists(path(what))) there << name(what);
+  for (const ResultFile& file : result_files()) {
+    all << name(file);
+    if (QFileInfo::exists(path(file))) there << name(file);
   }
   if (!there.isEmpty()) {
     QMessageBox box(QMessageBox::Question, "Arris",
@@ -318,11 +315,9 @@ void MainWindow::choose_results_folder() {
     box.exec();
     if (box.clickedButton() != replace) return;
   }
-  const auto to = [&](const char* what) { return path(what).toStdString(); };
-  Result<void> written = write_file_whole(to(lines), lines_obj(document));
-  if (written) written = write_file_whole(to(boundaries), boundaries_obj(document));
-  if (written) written = write_labelled_scan(to(scan), *document.scan, labels_on_scan(document));
-  if (written) written = write_file_whole(to(operations), journal_text(session_->history()));
+  Result<void> written;
+  for (const ResultFile& file : result_files())
+    if (written) written = file.write(path(file).toStdString(), session_->history());
   if (written)
     statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), folder), 8000);
   else
