@@ -22,6 +22,7 @@
 #include "core/document/document_bytes.h"
 #include "core/document/journal.h"
 #include "core/document/scan_places.h"
+#include "tests/core/crash_worker.h"
 #include "tests/support/documents.h"
 #include "tests/support/packing.h"
 
@@ -580,64 +581,28 @@ TEST_F(SessionSnapshots, DamagedBytesAreNoDocument) {
 
 // ---- crashes ----
 
-/// What a process that works on a session has said, at its last word, to be on disk.
-struct Acknowledged {
-  std::uint32_t rows = 0, head = 0;
-};
-
-constexpr int to_the_parent = 9;  // a descriptor beside those that the test program writes to
-
-void say(std::uint32_t rows, std::uint32_t head) {
-  const Acknowledged word{rows, head};
-  if (::write(to_the_parent, &word, sizeof word) != sizeof word) std::abort();
-}
-
-/// The process that is killed: works on the session that the environment names until that happens.
-TEST(CrashedSession, DISABLED_WorksUntilKilled) {
-  const char* path = std::getenv("ARRIS_CRASH_SESSION");
-  ASSERT_NE(path, nullptr);
-  const auto session = value_of(SessionFile::go_on(path));
-  History history = std::move(value_of(replay(path)).history);
-  if (std::getenv("ARRIS_CRASH_SAVES")) {
-    for (std::uint32_t row = 1;; row = 3 - row) {
-      if (!history.travel(row) || !save_session(path, history, {})) std::abort();
-      say(0, row);
-    }
-  }
-  history.set_journal(session);
-  for (std::uint32_t k = 0;; ++k) {
-    const auto done = k % 5 == 3 ? history.travel(history.head() - 1)
-                                 : history.run({"flip_orientation", json::object()});
-    if (!done) std::abort();
-    say(static_cast<std::uint32_t>(history.entries().size()), history.head());
-  }
-}
-
 class SessionCrash : public SessionFileTest {
  protected:
   int kills() const {
     const char* wanted = std::getenv("ARRIS_KILLS");  // more of them, by hand
     return wanted ? std::atoi(wanted) : 15;
   }
-  /// Starts the process above, kills it some time after its first word, and gives its last one.
+  /// Starts the process of crash_worker.cpp, kills it some time after its first word, and gives its
+  /// last one.
   Acknowledged work_and_kill(std::uint64_t microseconds, bool saves) const {
-    ::setenv("ARRIS_CRASH_SESSION", path.c_str(), 1);
-    saves ? ::setenv("ARRIS_CRASH_SAVES", "1", 1) : ::unsetenv("ARRIS_CRASH_SAVES");
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], to_the_parent);
     posix_spawn_file_actions_addclose(&actions, ends[0]);
-    std::vector<std::string> words{"/proc/self/exe", "--gtest_brief=1",
-                                   "--gtest_also_run_disabled_tests",
-                                   "--gtest_filter=CrashedSession.DISABLED_WorksUntilKilled"};
+    std::vector<std::string> words{ARRIS_CRASH_WORKER, path, saves ? "save" : "append"};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t child = 0;
     const int started =
-        ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
+        ::posix_spawn(&child, ARRIS_CRASH_WORKER, &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
     if (started != 0) throw std::runtime_error("no process");
