@@ -1,7 +1,3 @@
-#include <cmath>
-#include <functional>
-#include <limits>
-
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QCheckBox>
@@ -17,7 +13,6 @@
 #include <QTableView>
 #include <QTest>
 #include <QToolButton>
-#include <QWheelEvent>
 
 #include "tests/ui/panel_fixture.h"
 #include "ui/panels/colour_map_panel.h"
