@@ -11,6 +11,7 @@
 
 #include "core/base/parallel.h"
 #include "core/mesh/geometry.h"
+#include "core/partitions/part_size.h"
 #include "core/partitions/surface_noise.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -166,6 +167,14 @@ void settle(const Mesh& mesh, AreaTree& tree, FaceTable& table,
   table.neighbours = neighbours;
 }
 
+/// The joining of areas for a part `scale` times as many edges across as usual.
+AreaJoiningOptions scaled(AreaJoiningOptions options, double scale) {
+  options.wide *= static_cast<float>(scale);
+  options.blend *= static_cast<float>(scale);
+  options.continuation = scaled(options.continuation, scale);
+  return options;
+}
+
 /// What each piece holds and lies beside.
 void measure_pieces(const Mesh& mesh, const FaceTable& table, const std::vector<float>& edge_length,
                     AreaTree& tree) {
@@ -280,7 +289,11 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   FaceRegions areas =
       smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options.smallest);
   if (context.cancelled()) return cancelled();
-  Grains grains = make_grains(table, areas, tree.banded, options.grain);
+  // Grains of a fine scan are larger: a part as such has no more to tell, and what a scan is off by
+  // over long ways is noise of the samples then, too.
+  const double scale = part_size(mesh) / usual_part_size;
+  const int grain = static_cast<int>(options.grain * std::max(1.0, scale));
+  Grains grains = make_grains(table, areas, tree.banded, grain);
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
                                  static_cast<double>(options.angle) * radians};
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
@@ -316,8 +329,8 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   const FaceRegions pieces = pieces_of(table, areas, old);
   JoinedAreas joined =
       join_areas({mesh, table, lines, areas, tree.banded, samples_by_area(grains, areas.count),
-                  options.grain, tree.noise, kinks->noise},
-                 options.joining, context.part(0.5, 0.95));
+                  grain, tree.noise, kinks->noise},
+                 scaled(options.joining, scale), context.part(0.5, 0.95));
   if (context.cancelled()) return cancelled();
   tree.joins =
       join_pieces(table, pieces, areas, *kinks, edge_length, joined.surfaces, options.inner);
