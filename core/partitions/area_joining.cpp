@@ -133,9 +133,8 @@ class AreaJoining {
     const auto smaller =
         static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
     const float length = border_of_samples(border);
-    const float allowed_rise = options_.rise + options_.rise_each * smaller +
-                               options_.rise_border * length +
-                               options_.rise_share * static_cast<float>(std::min(na, nb));
+    const float allowed_rise =
+        options_.rise + options_.rise_each * smaller + options_.rise_border * length;
     const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
                                  ? std::max(0.0F, rise) / allowed_rise
                                  : never;
