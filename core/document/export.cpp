@@ -13,7 +13,13 @@ namespace {
 /// OBJ with polylines; each vertex is written once, before its first line.
 class PolylineObj {
  public:
-  explicit PolylineObj(const Mesh& mesh) : mesh_(mesh) {}
+  explicit PolylineObj(const Document& document) : mesh_(*document.mesh) {
+    const LengthUnit unit = length_unit_of(document);
+    text_ =
+        "# Arris; lengths in " +
+        (unit == LengthUnit::unknown ? "the unit of the scan" : std::string(info_of(unit).name)) +
+        "\n";
+  }
 
   void add(const std::string& group, const std::vector<VertexId>& path) {
     std::string indices;
@@ -33,13 +39,13 @@ class PolylineObj {
  private:
   const Mesh& mesh_;
   std::unordered_map<VertexId, std::size_t> index_;
-  std::string text_ = "# Arris; lengths in the unit of the scan\n";
+  std::string text_;
 };
 
 }  // namespace
 
 std::string lines_obj(const Document& document) {
-  PolylineObj obj(*document.mesh);
+  PolylineObj obj(document);
   for (const LinePtr& line : document.lines.lines)
     obj.add("line_" + std::to_string(line->id) + (line->convex() ? "_convex" : "_concave"),
             line->vertices);
@@ -47,7 +53,7 @@ std::string lines_obj(const Document& document) {
 }
 
 std::string boundaries_obj(const Document& document) {
-  PolylineObj obj(*document.mesh);
+  PolylineObj obj(document);
   std::size_t number = 0;
   for (const BoundaryPtr& boundary : *document.boundaries) {
     std::string group = "boundary_" + std::to_string(++number) + "_";
@@ -69,7 +75,7 @@ Result<void> write_curvature_ply(const std::string& path, const Document& docume
     values.push_back(field_values(*document.curvatures, field));
     properties.push_back({std::string(info_of(field).name), &values.back()});
   }
-  return write_ply(path, *document.mesh, properties);
+  return write_ply(path, *document.mesh, properties, length_unit_of(document));
 }
 
 }  // namespace arris

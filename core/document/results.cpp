@@ -22,7 +22,8 @@ std::span<const ResultFile> result_files() {
       ResultFile{"scan_partitions.ply",
                  [](const std::string& path, const History& history) {
                    const Document& document = history.current();
-                   return write_labelled_scan(path, *document.scan, labels_on_scan(document));
+                   return write_labelled_scan(path, *document.scan, labels_on_scan(document),
+                                              length_unit_of(document));
                  }},
       ResultFile{"operations.jsonl", [](const std::string& path, const History& history) {
                    return write_file_whole(path, journal_text(history));
