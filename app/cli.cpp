@@ -75,6 +75,19 @@ int complain(const Error& error) {
   return bad_input;
 }
 
+/// How a scan is opened.
+struct Opening {
+  std::string scan;
+  bool weld = true;
+  std::string unit;  ///< Empty: as the file says.
+
+  std::vector<Operation> operations() const {
+    std::vector<Operation> list{open_file(scan, weld)};
+    if (!unit.empty()) list.push_back({"set_unit", {{"unit", unit}}});
+    return list;
+  }
+};
+
 /// Runs operations one after the other and takes the time of each.
 struct Run {
   History history;
@@ -85,7 +98,14 @@ struct Run {
     const Result<void> done = history.run(operation, progress_context());
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     seconds[operation.name] = rounded(spent.count(), 3);
+    // As where a unit is named that the file names, too.
+    if (!done && done.error().nothing_to_do) return {};
     return done;
+  }
+  Result<void> open(const Opening& opening) {
+    for (const Operation& operation : opening.operations())
+      if (const auto done = step(operation); !done) return done;
+    return {};
   }
 };
 
@@ -110,7 +130,7 @@ void add_surfaces(const Document& document, nlohmann::json& summary) {
     nlohmann::json& one = listed[std::to_string(document.partitions.partitions[k]->id)];
     one["type"] = name_of(fit.surface.type);
     if (fit.surface.type == SurfaceType::free) continue;
-    one["size"] = size_text(fit.surface);
+    one["size"] = size_text(fit.surface, length_unit_of(document));
     one["mean_deviation"] = rounded(fit.mean_deviation, 4);
     one["max_deviation"] = rounded(fit.max_deviation, 4);
     one["within"] = rounded(fit.within, 4);
@@ -131,6 +151,7 @@ nlohmann::json summary_of(const History& history) {
   const Document& document = history.current();
   nlohmann::json summary;
   summary["scan"] = document.scan->report.to_json();
+  summary["unit"] = info_of(length_unit_of(document)).key;
   summary["mean_edge_length"] = document.mesh->mean_edge_length();
   summary["angle_noise_degrees"] = angle_noise(*document.curvatures);
   summary["normal_noise_degrees"] = rounded(normal_noise_of(document), 4);
@@ -239,9 +260,22 @@ void print_outcome(const std::string& folder, const nlohmann::json& summary) {
             << " % of that four-sided) written to " << folder << "\n";
 }
 
-int info(const std::string& scan, bool weld, bool as_json) {
+/// "The file names no unit; by its size these are millimetres or inches (--unit mm, --unit in)."
+std::string unit_question(const Point& size) {
+  std::string names, options;
+  const std::vector<LengthUnit> units = likely_units(size);
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    const std::string between = k == 0 ? "" : k + 1 < units.size() ? ", " : " or ";
+    names += between + std::string(info_of(units[k]).name);
+    options += (k == 0 ? "" : ", ") + ("--unit " + std::string(info_of(units[k]).key));
+  }
+  return "the file names no unit; by its size these may be " + names + " (" + options + ")";
+}
+
+int info(const Opening& opening, bool as_json) {
+  const std::string& scan = opening.scan;
   Run run;
-  if (const auto opened = run.step(open_file(scan, weld)); !opened) return complain(opened.error());
+  if (const auto opened = run.open(opening); !opened) return complain(opened.error());
   const Document& document = run.history.current();
   const LoadReport& report = document.scan->report;
   const Mesh& mesh = *document.mesh;
@@ -249,6 +283,11 @@ int info(const std::string& scan, bool weld, bool as_json) {
   if (as_json) {
     nlohmann::json json = report.to_json();
     json["size"] = {size.x(), size.y(), size.z()};
+    const LengthUnit unit = length_unit_of(document);
+    json["length_unit"] = info_of(unit).key;
+    if (unit == LengthUnit::unknown)
+      for (const LengthUnit likely : likely_units(size))
+        json["likely_units"].push_back(info_of(likely).key);
     json["mean_edge_length"] = mesh.mean_edge_length();
     json["angle_noise_degrees"] = angle_noise(*document.curvatures);
     json["normal_noise_degrees"] = rounded(normal_noise_of(document), 4);
@@ -258,6 +297,7 @@ int info(const std::string& scan, bool weld, bool as_json) {
     std::cout << json.dump(2) << "\n";
     return 0;
   }
+  const LengthUnit unit = length_unit_of(document);
   std::cout << scan << ": " << report.format << ", " << report.file_faces << " faces, "
             << report.file_vertices << " vertices"
             << (report.unit.empty() ? "" : ", in " + report.unit) << "\n"
@@ -267,8 +307,9 @@ int info(const std::string& scan, bool weld, bool as_json) {
             << (report.border_loops == 1 ? " loop" : " loops") << ", Euler number "
             << report.euler_number << "\n"
             << "size: " << number_text(size.x(), 5) << " x " << number_text(size.y(), 5) << " x "
-            << number_text(size.z(), 5) << ", mean edge " << number_text(mesh.mean_edge_length(), 4)
-            << "\n"
+            << with_unit(number_text(size.z(), 5), unit) << ", mean edge "
+            << with_unit(number_text(mesh.mean_edge_length(), 4), unit) << "\n"
+            << (unit == LengthUnit::unknown ? unit_question(size) + "\n" : std::string())
             << "noise turns normals by " << fixed_text(normal_noise_of(document), 1)
             << " degrees and edges by " << fixed_text(angle_noise(*document.curvatures), 1)
             << "; sharp lines are looked for where normals jump by more than "
@@ -278,10 +319,10 @@ int info(const std::string& scan, bool weld, bool as_json) {
   return 0;
 }
 
-int curvature(const std::string& scan, bool weld, const std::string& output) {
+int curvature(const Opening& opening, const std::string& output) {
   if (const auto ready = check_writable(output); !ready) return complain(ready.error());
   Run run;
-  if (const auto opened = run.step(open_file(scan, weld)); !opened) return complain(opened.error());
+  if (const auto opened = run.open(opening); !opened) return complain(opened.error());
   if (const auto written = write_curvature_ply(output, run.history.current()); !written)
     return complain(written.error());
   return 0;
@@ -289,7 +330,6 @@ int curvature(const std::string& scan, bool weld, const std::string& output) {
 
 /// From one scan to its partitions.
 struct Segmentation {
-  bool weld = true;
   Flow flow = Flow::scan;
   bool swap = false;  // costs more of the weak lines than it mends of the noise
   int smoothing_passes = 0;
@@ -298,9 +338,9 @@ struct Segmentation {
   nlohmann::json partitions = nlohmann::json::object();
 };
 
-int segment(const std::string& scan, const ResultPlaces& places, const Segmentation& wanted) {
+int segment(const Opening& opening, const ResultPlaces& places, const Segmentation& wanted) {
   if (const auto ready = check_results(places); !ready) return complain(ready.error());
-  std::vector<Operation> operations{open_file(scan, wanted.weld)};
+  std::vector<Operation> operations = opening.operations();
   for (Operation& operation : operations_of(wanted.flow)) {
     if (operation.name == "simplify") operation.parameters = wanted.simplification;
     if (operation.name == "find_sharp_lines") {
@@ -325,12 +365,12 @@ int segment(const std::string& scan, const ResultPlaces& places, const Segmentat
   return 0;
 }
 
-int simplify_scan(const std::string& scan, bool weld, const std::string& output,
+int simplify_scan(const Opening& opening, const std::string& output,
                   const nlohmann::json& parameters) {
   if (const auto ready = check_writable(output); !ready) return complain(ready.error());
   Run run;
-  for (const Operation& operation : {open_file(scan, weld), Operation{"simplify", parameters}})
-    if (const auto done = run.step(operation); !done) return complain(done.error());
+  if (const auto opened = run.open(opening); !opened) return complain(opened.error());
+  if (const auto done = run.step({"simplify", parameters}); !done) return complain(done.error());
   const Document& document = run.history.current();
   // Vertices that went are not written; the ids of the scan are in the journal, not in a PLY.
   std::vector<Point> points;
@@ -346,10 +386,11 @@ int simplify_scan(const std::string& scan, bool weld, const std::string& output,
   const std::size_t left = points.size();
   const Result<MeshPtr> compact = Mesh::create(std::move(points), std::move(triangles));
   if (!compact) return complain(compact.error());
-  if (const auto written = write_ply(output, **compact, {}); !written)
+  if (const auto written = write_ply(output, **compact, {}, length_unit_of(document)); !written)
     return complain(written.error());
   std::cout << document.opened.mesh->vertex_count() << " -> " << left << " vertices, all within "
-            << number_text(document.simplify->parameters["error_zone"].get<double>(), 3)
+            << with_unit(number_text(document.simplify->parameters["error_zone"].get<double>(), 3),
+                         length_unit_of(document))
             << " of the scan, written to " << output << "\n";
   return 0;
 }
@@ -372,10 +413,10 @@ Result<std::uint32_t> row_of(const History& history, const std::string& name,
               (known.empty() ? "none is named." : "there is " + known + "."));
 }
 
-/// A session or list of operations run again, at a version of it. Errors: it cannot be, there is no
-/// such version, it ends with no part open.
+/// A session or list of operations run again, at a version of it, in a unit. Errors: it cannot be,
+/// there is no such version, it ends with no part open.
 Result<Replay> replay_at(const std::string& operations, const std::string& scan,
-                         const std::string& version) {
+                         const std::string& version, const std::string& unit) {
   Result<Replay> done = replay_loudly(operations, scan);
   if (!done) return done;
   if (!version.empty()) {
@@ -386,14 +427,18 @@ Result<Replay> replay_at(const std::string& operations, const std::string& scan,
   }
   if (done->history.current().empty())
     return fail(operations + " ends with no part open; there is nothing to write.");
+  if (!unit.empty())
+    if (const auto told = done->history.run({"set_unit", {{"unit", unit}}});
+        !told && !told.error().nothing_to_do)
+      return tl::unexpected<Error>(told.error());
   return done;
 }
 
 int replay_file(const std::string& operations, const std::string& scan, const std::string& version,
-                const ResultPlaces& places) {
+                const std::string& unit, const ResultPlaces& places) {
   if (const auto ready = check_results(places); !ready) return complain(ready.error());
   const auto start = std::chrono::steady_clock::now();
-  const Result<Replay> done = replay_at(operations, scan, version);
+  Result<Replay> done = replay_at(operations, scan, version, unit);
   if (!done) return complain(done.error());
   nlohmann::json summary = summary_of(done->history);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
@@ -419,7 +464,7 @@ std::string exports_text(const std::string& what) {
 }
 
 int export_file(const std::string& operations, const std::string& scan, const std::string& version,
-                const std::string& what, const std::string& output) {
+                const std::string& unit, const std::string& what, const std::string& output) {
   const std::string ending =
       CLI::detail::to_lower(std::filesystem::path(output).extension().string());
   const auto files = result_files();
@@ -430,7 +475,7 @@ int export_file(const std::string& operations, const std::string& scan, const st
                          "; the ending of the file says which.",
                      false});
   if (const auto ready = check_writable(output); !ready) return complain(ready.error());
-  const Result<Replay> done = replay_at(operations, scan, version);
+  const Result<Replay> done = replay_at(operations, scan, version, unit);
   if (!done) return complain(done.error());
   if (const auto written = file->write(output, done->history); !written)
     return complain(written.error());
@@ -481,12 +526,17 @@ int compare_versions(const std::string& operations, const std::array<std::string
               << "\n";
     return 0;
   }
-  for (const nlohmann::json& s : summaries)
+  for (std::size_t side = 0; side < 2; ++side) {
+    const nlohmann::json& s = summaries[side];
+    const LengthUnit unit = length_unit_of(documents[side]);
+    const auto length = [&](const nlohmann::json& value) {
+      return with_unit(number_text(value, 4), unit);
+    };
     std::cout << s["version"].get<std::string>() << ": " << s["lines"] << " lines ("
-              << number_text(s["length"], 4) << " mm), " << s["partitions"]
-              << " partitions; only here " << number_text(s["only_here"]["sharp_length"], 4)
-              << " mm of sharp lines, " << number_text(s["only_here"]["soft_length"], 4)
-              << " mm of other borders\n";
+              << length(s["length"]) << "), " << s["partitions"] << " partitions; only here "
+              << length(s["only_here"]["sharp_length"]) << " of sharp lines, "
+              << length(s["only_here"]["soft_length"]) << " of other borders\n";
+  }
   if (comparison->divided_otherwise)
     std::cout << fixed_text(100.0 * *comparison->divided_otherwise, 1)
               << " % of the area is divided otherwise\n";
@@ -497,7 +547,7 @@ int sample(const std::string& output) {
   SampleMould mould = make_mould();
   const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
   if (!mesh) return complain(mesh.error());
-  if (const auto written = write_ply(output, **mesh, {}); !written)
+  if (const auto written = write_ply(output, **mesh, {}, LengthUnit::millimetre); !written)
     return complain(written.error());
   return 0;
 }
@@ -576,7 +626,8 @@ int main(int argc, char** argv) {
           ->check(CLI::Range(1, 32));
   CLI::Option* length_option =
       segment_command
-          ->add_option("--min-length", min_length, "Isolated lines shorter than this go (mm)")
+          ->add_option("--min-length", min_length,
+                       "Isolated lines shorter than this go (in the scan's unit, as all lengths)")
           ->check(CLI::NonNegativeNumber);
   std::string partition_method;
   double detail = 1.0;
@@ -606,12 +657,12 @@ int main(int argc, char** argv) {
 
   const auto add_zone = [&](CLI::App* command) {
     return command
-        ->add_option("--error-zone", error_zone, "Radius in mm; left out: three times the noise")
+        ->add_option("--error-zone", error_zone,
+                     "Radius in the scan's unit; left out: three times the noise")
         ->check(CLI::NonNegativeNumber);
   };
   const auto add_edge = [&](CLI::App* command, const std::string& otherwise) {
-    return command
-        ->add_option("--max-edge", max_edge, "No new edge longer than this (mm); " + otherwise)
+    return command->add_option("--max-edge", max_edge, "No new edge longer than this; " + otherwise)
         ->check(CLI::NonNegativeNumber);
   };
   CLI::Option* zone_option = add_zone(simplify_command);
@@ -650,6 +701,20 @@ int main(int argc, char** argv) {
                       "Vertices that lie on one place stay apart, as the file has them (not the "
                       "corners of STL)");
 
+  std::string unit;
+  const auto add_unit = [&](CLI::App* command) {
+    command
+        ->add_option("--unit", unit,
+                     "What lengths of the scan are in: " + length_unit_keys() +
+                         "; left out: as the file says. Told, not computed with")
+        ->check([](const std::string& text) {
+          return find_length_unit(text) ? std::string()
+                                        : "'" + text + "' is not one of " + length_unit_keys();
+        });
+  };
+  for (CLI::App* command : {info_command, curvature_command, simplify_command, segment_command})
+    add_unit(command);
+
   CLI::App* replay_command = app.add_subcommand("replay", "Run a session or list of operations");
   replay_command
       ->add_option("OPERATIONS", operations,
@@ -660,11 +725,6 @@ int main(int argc, char** argv) {
   replay_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
   std::string at;
   replay_command->add_option("--at", at, "Write the version of this name, not the last state");
-  std::string session;
-  for (CLI::App* command : {segment_command, replay_command})
-    command->add_option("--session", session,
-                        "Also write one file with scan and operations, for the window (*.arris)");
-
   CLI::App* export_command =
       app.add_subcommand("export", "Write one thing of a session for another program");
   std::string what;
@@ -682,6 +742,12 @@ int main(int argc, char** argv) {
       ->required();
   export_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
   export_command->add_option("--at", at, "Write the version of this name, not the last state");
+  for (CLI::App* command : {replay_command, export_command}) add_unit(command);
+
+  std::string session;
+  for (CLI::App* command : {segment_command, replay_command})
+    command->add_option("--session", session,
+                        "Also write one file with scan and operations, for the window (*.arris)");
 
   CLI::App* compare_command = app.add_subcommand(
       "compare", "Where two named versions of a session divide the part otherwise");
@@ -741,14 +807,13 @@ int main(int argc, char** argv) {
   if (*cost_option) simplification["cost"] = cost;
   if (*target_option) simplification["target_vertices"] = target;
 
-  const bool weld = !no_weld;
-  segmentation.weld = weld;
-  if (*info_command) return info(scan, weld, as_json);
-  if (*curvature_command) return curvature(scan, weld, output);
-  if (*simplify_command) return simplify_scan(scan, weld, output, simplification);
-  if (*segment_command) return segment(scan, {output, session}, segmentation);
-  if (*replay_command) return replay_file(operations, other_scan, at, {output, session});
-  if (*export_command) return export_file(operations, other_scan, at, what, output);
+  const Opening opening{scan, !no_weld, unit};
+  if (*info_command) return info(opening, as_json);
+  if (*curvature_command) return curvature(opening, output);
+  if (*simplify_command) return simplify_scan(opening, output, simplification);
+  if (*segment_command) return segment(opening, {output, session}, segmentation);
+  if (*replay_command) return replay_file(operations, other_scan, at, unit, {output, session});
+  if (*export_command) return export_file(operations, other_scan, at, unit, what, output);
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);
 }

@@ -1,12 +1,18 @@
 // arris: the window.
 
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QMessageBox>
 #include <QTimer>
 
 #include "core/document/flow.h"
+#include "ui/view/graphics.h"
+#include "ui/window/about_dialog.h"
+#include "ui/window/log_file.h"
 #include "ui/window/main_window.h"
 #include "ui/window/theme.h"
 
@@ -17,6 +23,7 @@ using namespace arris::ui;
 
 constexpr int bad_input = 1;
 constexpr int bad_usage = 2;
+constexpr int no_graphics = 3;
 
 /// Debian's VTK loads OpenGL through GLX (shared knowledge of Qt 6 with VTK 9.1); what the user set
 /// is left alone.
@@ -43,10 +50,38 @@ int complain(const QString& message, int code) {
   return code;
 }
 
+/// What happens, for who has to find out later what went wrong.
+void keep_log_of(Session& session) {
+  QObject::connect(&session, &Session::opened, [&session] {
+    const LoadReport& scan = session.current().document.scan->report;
+    program_log().write(
+        QString("opened %1: %2, %3 faces, %4 rows")
+            .arg(QString::fromStdString(scan.file), QString::fromStdString(scan.format))
+            .arg(scan.faces)
+            .arg(session.history().entries().size()));
+  });
+  QObject::connect(&session, &Session::done, [&session](const QString& operation) {
+    program_log().write(
+        QString("%1: %2 s").arg(operation).arg(session.seconds_of(operation.toStdString())));
+  });
+  QObject::connect(&session, &Session::failed,
+                   [](const QString& message) { program_log().write("told: " + message); });
+}
+
+/// Asked for help or the version: that needs neither display nor graphics.
+bool only_tells(int argc, char** argv) {
+  return std::any_of(argv + std::min(argc, 1), argv + argc, [](const char* argument) {
+    const std::string_view text = argument;
+    return text == "--help" || text == "-h" || text == "--version" || text == "-v";
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   prefer_glx();
+  if (only_tells(argc, argv)) qputenv("QT_QPA_PLATFORM", "offscreen");
+  if (const QString why = why_no_display(); !why.isEmpty()) return complain(why, no_graphics);
   QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
   QApplication application(argc, argv);
   QApplication::setApplicationName("arris");
@@ -73,8 +108,13 @@ int main(int argc, char** argv) {
       "flow",
       "With --run: scan, the scan as it is; or paper, simplified first and equilateralised (scan).",
       "FLOW", "scan");
+  const QCommandLineOption unit(
+      "unit",
+      "What lengths of the scan are in: " + QString::fromStdString(length_unit_keys()) +
+          "; left out: as the file says.",
+      "U");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
-  parser.addOptions({sample, screenshot, field, size, run, flow, window});
+  parser.addOptions({sample, screenshot, field, size, run, flow, unit, window});
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
   if (parser.isSet("help")) parser.showHelp();
   if (parser.isSet("version")) parser.showVersion();
@@ -88,6 +128,14 @@ int main(int argc, char** argv) {
       return complain("--field " + parser.value(field) + " is not one of " + fields + ".",
                       bad_usage);
   }
+  std::optional<LengthUnit> wanted_unit;
+  if (parser.isSet(unit)) {
+    wanted_unit = find_length_unit(parser.value(unit).toStdString());
+    if (!wanted_unit)
+      return complain("--unit " + parser.value(unit) + " is not one of " +
+                          QString::fromStdString(length_unit_keys()) + ".",
+                      bad_usage);
+  }
   if (parser.value(flow) != "scan" && parser.value(flow) != "paper")
     return complain("--flow " + parser.value(flow) + " is neither scan nor paper.", bad_usage);
   const QStringList parts = parser.value(size).split('x');
@@ -99,20 +147,36 @@ int main(int argc, char** argv) {
     return complain("--size " + parser.value(size) + " is not WIDTHxHEIGHT in pixels.", bad_usage);
 
   set_theme(application, false);
-  MainWindow main_window;
-  Session& session = main_window.session();
   const QString picture = parser.value(screenshot);
   const bool shoot = parser.isSet(screenshot);
+  log_warnings();
+  if (const QString why = why_nothing_can_be_drawn(); !why.isEmpty()) {
+    program_log().write(why);
+    complain(why, no_graphics);
+    if (!shoot) QMessageBox::critical(nullptr, "Arris", why);
+    return no_graphics;
+  }
+  program_log().write("started: " + made_of().join(", ") + "; " + graphics_text());
+  MainWindow main_window;
+  Session& session = main_window.session();
+  keep_log_of(session);
   if (shoot && parser.positionalArguments().isEmpty() && !parser.isSet(sample))
     return complain("--screenshot needs a scan to draw.", bad_usage);
 
-  // After opening: the wanted field and steps, then the picture where one is wanted.
-  QObject::connect(&session, &Session::opened, &main_window, [&] {
+  // After opening: the wanted field, unit and steps, then the picture where one is wanted.
+  const auto last = std::make_shared<QString>("open");  // operation before the picture
+  QObject::connect(&session, &Session::opened, &main_window, [&, last] {
     if (wanted_field) main_window.set_field(*wanted_field);
+    std::vector<Operation> operations;
+    if (wanted_unit && *wanted_unit != length_unit_of(session.current().document))
+      operations.push_back({"set_unit", {{"unit", info_of(*wanted_unit).key}}});
     if (parser.isSet(run))
-      QTimer::singleShot(0, &main_window, [&] {
-        session.run(operations_of(parser.value(flow) == "paper" ? Flow::paper : Flow::scan));
-      });
+      for (Operation& operation :
+           operations_of(parser.value(flow) == "paper" ? Flow::paper : Flow::scan))
+        operations.push_back(std::move(operation));
+    if (operations.empty()) return;
+    *last = QString::fromStdString(operations.back().name);
+    QTimer::singleShot(0, &main_window, [&session, operations] { session.run(operations); });
   });
   if (shoot) {
     QObject::disconnect(&session, &Session::failed, nullptr, nullptr);
@@ -142,9 +206,8 @@ int main(int argc, char** argv) {
       });
       waiting->start(300);
     };
-    const QString last = parser.isSet(run) ? "find_partitions" : "open";
     QObject::connect(&session, &Session::done, &main_window, [last, save](const QString& name) {
-      if (name == last) save();
+      if (name == *last) save();
     });
     main_window.resize(std::max(main_window.width(), 1000), std::max(main_window.height(), 700));
   }

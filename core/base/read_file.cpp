@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/hash.h"
+#include "core/base/machine_memory.h"
 
 namespace arris {
 
@@ -21,6 +22,8 @@ Result<FileContent> read_file(const std::string& path, const Context& context) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return fail(path + " cannot be read: " + error.message() + ".");
   if (size == 0) return fail(path + " is empty.");
+
+  if (const auto fits = check_memory(path, size); !fits) return tl::unexpected<Error>(fits.error());
 
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }

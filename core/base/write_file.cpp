@@ -1,11 +1,16 @@
 #include "core/base/write_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,6 +20,50 @@ namespace arris {
 namespace {
 
 std::string system_reason() { return std::strerror(errno); }
+
+/// Files of this computer and this process are told by their names: ".arris-" HOST "-" PROCESS "-"
+/// NUMBER ".part".
+constexpr std::string_view part_begin = ".arris-", part_end = ".part";
+
+/// Of this computer, without a minus: folders may be shared with others.
+std::string host_mark() {
+  char name[256] = {};
+  if (::gethostname(name, sizeof name - 1) != 0) return "0";
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const char* c = name; *c; ++c) hash = (hash ^ static_cast<unsigned char>(*c)) * 16777619u;
+  return std::to_string(hash);
+}
+
+/// The process that made a file of such a name; 0: it is none, or of another computer.
+pid_t maker_of(std::string_view name) {
+  const std::string begin = std::string(part_begin) + host_mark() + "-";
+  if (!name.starts_with(begin) || !name.ends_with(part_end)) return 0;
+  name.remove_prefix(begin.size());
+  name.remove_suffix(part_end.size());
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
+  if (error != std::errc() || process <= 0 || *end != '-') return 0;
+  const std::string_view number(end + 1, name.data() + name.size());
+  const bool is_number =
+      !number.empty() && std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+  return is_number ? process : 0;
+}
+
+/// A process that was killed while it wrote leaves its new file behind. Nobody else's is touched,
+/// and none of a process that is still there.
+void remove_left_overs(const std::filesystem::path& folder) {
+  DIR* const all = ::opendir(folder.empty() ? "." : folder.c_str());
+  if (!all) return;
+  while (const dirent* entry = ::readdir(all)) {
+    const pid_t maker = maker_of(entry->d_name);
+    if (maker == 0 || ::kill(maker, 0) == 0 || errno != ESRCH) continue;
+    struct stat left {};
+    if (::fstatat(::dirfd(all), entry->d_name, &left, AT_SYMLINK_NOFOLLOW) == 0 &&
+        S_ISREG(left.st_mode) && left.st_uid == ::geteuid())
+      ::unlinkat(::dirfd(all), entry->d_name, 0);
+  }
+  ::closedir(all);
+}
 
 /// A file made beside its place; removed again unless it was put there.
 class NewFile {
@@ -30,9 +79,10 @@ class NewFile {
   bool create(const std::filesystem::path& folder) {
     static std::atomic<unsigned> serial = 0;
     for (int tries = 0; tries < 100; ++tries) {
-      const std::string name = (folder / (".arris-" + std::to_string(::getpid()) + "-" +
-                                          std::to_string(serial++) + ".part"))
-                                   .string();
+      const std::string name =
+          (folder / (std::string(part_begin) + host_mark() + "-" + std::to_string(::getpid()) +
+                     "-" + std::to_string(serial++) + std::string(part_end)))
+              .string();
       descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ >= 0) {
         name_ = name;
@@ -110,6 +160,7 @@ Result<void> prepare(const std::string& path, Place& place) {
   if (exists && ::access(place.target.c_str(), W_OK) != 0)
     return fail(path + " cannot be written: " + system_reason() + ".");
   place.folder = place.target.has_parent_path() ? place.target.parent_path() : ".";
+  remove_left_overs(place.folder);  // first: they take room
   if (!place.file.create(place.folder))
     return fail(path + " cannot be created: " + system_reason() + ".");
   if (exists) place.file.set_mode(existing.st_mode);

@@ -15,9 +15,11 @@ namespace {
 
 constexpr Element vertex = Element::vertex, edge = Element::edge, face = Element::face;
 constexpr FieldInfo fields[] = {
-    {Field::k, '1', "K", "1/mm²", "Gaussian curvature (eq. 2)", vertex, true},
-    {Field::h, '2', "H", "1/mm", "Mean curvature (eq. 6); positive where convex", vertex, true},
-    {Field::kabs, '3', "Kabs", "1/mm²", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder"},
+    {Field::k, '1', "K", "", "Gaussian curvature (eq. 2)", vertex, true, false, -2},
+    {Field::h, '2', "H", "", "Mean curvature (eq. 6); positive where convex", vertex, true, false,
+     -1},
+    {Field::kabs, '3', "Kabs", "", "Absolute curvature k1² + k2² (eq. 8); 1/r² on a cylinder",
+     vertex, false, false, -2},
     {Field::ih, '4', "IH", "", "Invariant of the mean curvature at a vertex (eq. 12)", vertex,
      true},
     {Field::ik, '5', "IK", "", "Invariant of the Gaussian curvature (eq. 13)", vertex, true},
@@ -53,6 +55,12 @@ static_assert(is_whole());
 std::span<const FieldInfo, field_count> field_table() { return fields; }
 
 const FieldInfo& info_of(Field field) { return fields[static_cast<std::size_t>(field)]; }
+
+std::string unit_of(Field field, LengthUnit lengths) {
+  const FieldInfo& info = info_of(field);
+  return info.length_power != 0 ? unit_text(lengths, info.length_power)
+                                : std::string(info.own_unit);
+}
 
 std::optional<Field> find_field(std::string_view name) {
   const auto same = [](char a, char b) {

@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/curvature/curvature.h"
+#include "core/mesh/length_unit.h"
 #include "core/mesh/mesh.h"
 
 namespace arris {
@@ -22,18 +24,21 @@ enum class Element { vertex, edge, face };
 
 struct FieldInfo {
   Field field;
-  char key;                  ///< With Alt, shows it in the window.
-  std::string_view name;     ///< As in files and on the command line: "Kabs".
-  std::string_view unit;     ///< "1/mm²", "°", or empty.
-  std::string_view meaning;  ///< One sentence.
+  char key;                   ///< With Alt, shows it in the window.
+  std::string_view name;      ///< As in files and on the command line: "Kabs".
+  std::string_view own_unit;  ///< "°", "% of zone"; empty: none, or that of lengths.
+  std::string_view meaning;   ///< One sentence.
   Element element = Element::vertex;
   bool is_signed = false;
   bool is_class = false;  ///< Values are class numbers (Shape).
+  int length_power = 0;   ///< -2 for one over an area; 0: no matter of lengths.
 };
 
 /// All fields in the order of the enumeration.
 std::span<const FieldInfo, field_count> field_table();
 const FieldInfo& info_of(Field field);
+/// "1/mm²", "°", or empty.
+std::string unit_of(Field field, LengthUnit lengths);
 /// By name, upper or lower case.
 std::optional<Field> find_field(std::string_view name);
 

@@ -49,10 +49,31 @@ std::string step_real(double value) {
   return text;
 }
 
+/// The number of a unit in DXF; 0: none.
+std::string_view dxf_unit(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::inch:
+      return "1";
+    case LengthUnit::foot:
+      return "2";
+    case LengthUnit::millimetre:
+      return "4";
+    case LengthUnit::centimetre:
+      return "5";
+    case LengthUnit::metre:
+      return "6";
+    case LengthUnit::micrometre:
+      return "13";
+    case LengthUnit::unknown:
+      break;
+  }
+  return "0";
+}
+
 }  // namespace
 
 std::string curves_obj(const HandedCurves& curves) {
-  std::string text = "# Arris; lengths in the unit of the scan\n";
+  std::string text = "# Arris; lengths in " + lengths_in(curves.unit) + "\n";
   Points points;
   for (const HandedCurve& curve : curves.curves) {
     std::string indices;
@@ -88,11 +109,13 @@ std::string curves_dxf(const HandedCurves& curves) {
       any = true;
     }
   }
-  put(999, "Arris: " + curves.title + "; lengths in the unit of the scan");
+  put(999, "Arris: " + curves.title + "; lengths in " + lengths_in(curves.unit));
   put(0, "SECTION");
   put(2, "HEADER");
   put(9, "$ACADVER");
   put(1, "AC1009");
+  put(9, "$INSUNITS");
+  put(70, dxf_unit(curves.unit));
   put(9, "$EXTMIN");
   put_point(low);
   put(9, "$EXTMAX");
@@ -147,7 +170,9 @@ std::string curves_dxf(const HandedCurves& curves) {
   return text;
 }
 
-std::string curves_step(const HandedCurves& curves, double millimetres) {
+std::string curves_step(const HandedCurves& curves) {
+  const double millimetres =
+      curves.unit == LengthUnit::unknown ? 1.0 : info_of(curves.unit).millimetres;
   std::string text =
       "ISO-10303-21;\nHEADER;\n"
       "FILE_DESCRIPTION(('Arris: " +

@@ -16,9 +16,9 @@ std::string curves_obj(const HandedCurves& curves);
 /// kind.
 std::string curves_dxf(const HandedCurves& curves);
 
-/// STEP (AP214): a geometric curve set of polylines, each with the name of its curve. `millimetres`
-/// of one unit of the mesh: lengths are written in mm.
-std::string curves_step(const HandedCurves& curves, double millimetres);
+/// STEP (AP214): a geometric curve set of polylines, each with the name of its curve. In mm,
+/// whatever the unit of the part; as they are where that is not known.
+std::string curves_step(const HandedCurves& curves);
 
 /// VTK PolyData for ParaView and the like: one polyline a curve, its values as cell data.
 std::string curves_vtp(const HandedCurves& curves);

@@ -174,6 +174,8 @@ std::string hash_of(const Document& document) {
   add(hasher, document.smooth_curvature);
   add(hasher, document.find_partitions);
   hasher.number(document.next_id);
+  // Only where it was said: documents of before there was such an operation are what they were.
+  if (document.unit) hasher.text(info_of(*document.unit).key);
   return hasher.hex();
 }
 
@@ -248,6 +250,11 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
     if (partition.get() != base.partitions.find(partition->id)) bytes += sizeof(Partition);
   }
   return bytes;
+}
+
+LengthUnit length_unit_of(const Document& document) {
+  if (document.unit || document.empty()) return document.unit.value_or(LengthUnit::unknown);
+  return find_length_unit(document.scan->report.unit).value_or(LengthUnit::unknown);
 }
 
 double assigned_share(const Document& document) {

@@ -12,6 +12,7 @@
 #include "core/curvature/curvature.h"
 #include "core/document/corrections.h"
 #include "core/document/operation.h"
+#include "core/mesh/length_unit.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/scan.h"
 #include "core/partitions/boundaries.h"
@@ -71,7 +72,8 @@ struct Document {
   std::optional<Step> equilateralize;
   std::optional<Step> smooth_curvature;
   std::optional<Step> find_partitions;
-  std::uint32_t next_id = 1;  ///< Of the next line or partition; never goes back.
+  std::uint32_t next_id = 1;       ///< Of the next line or partition; never goes back.
+  std::optional<LengthUnit> unit;  ///< As set_unit said; absent: as the scan's file says.
 
   bool empty() const { return !scan; }
   /// The step of this name as last run; absent for one never run, and for names that are no step.
@@ -118,6 +120,9 @@ std::vector<std::uint32_t> labels_on_scan(const Document& document);
 
 /// Bytes that `document` holds and `base` does not share (as the history's budget counts them).
 std::size_t bytes_beyond(const Document& document, const Document& base);
+
+/// What lengths are told in: as the user said, else as the scan's file says, else unknown.
+LengthUnit length_unit_of(const Document& document);
 
 /// Share of the area that belongs to a partition, 0 to 1.
 double assigned_share(const Document& document);

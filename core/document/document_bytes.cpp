@@ -15,8 +15,8 @@ namespace arris {
 
 namespace {
 
-/// Of the layout below; another one is not read.
-constexpr std::uint32_t layout = 1;
+/// Of the layout below, and the oldest that is still read: another one is not. 2: with the unit.
+constexpr std::uint32_t layout = 2, oldest_layout = 1;
 constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 /// Plain values one after the other, as this machine holds them.
@@ -293,6 +293,8 @@ std::optional<std::string> bytes_of(const Document& document) {
         &document.equilateralize, &document.smooth_curvature, &document.find_partitions})
     out.step(*step);
   out.value(document.next_id);
+  out.value(document.unit.has_value());
+  if (document.unit) out.value(*document.unit);
 
   Writer whole;
   whole.value(layout);
@@ -310,7 +312,8 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
   // No more than what such a part can need is allocated.
   const std::size_t elements = opened.scan->mesh->vertex_count() + opened.scan->mesh->face_count();
   constexpr std::size_t most_each = 400;  // bytes
-  if (!head.at_end() || version != layout || size > (std::size_t{64} << 20) + most_each * elements)
+  if (!head.at_end() || version < oldest_layout || version > layout ||
+      size > (std::size_t{64} << 20) + most_each * elements)
     return std::nullopt;
   std::string unpacked(size, '\0');
   const std::string_view rest = bytes.substr(sizeof version + sizeof size);
@@ -401,6 +404,10 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
         &document.equilateralize, &document.smooth_curvature, &document.find_partitions})
     *step = in.step();
   document.next_id = in.value<std::uint32_t>();
+  if (version >= 2 && in.flag()) {
+    document.unit = in.value<LengthUnit>();
+    in.expect(static_cast<std::size_t>(*document.unit) < length_unit_table().size());
+  }
   if (!in.at_end()) return std::nullopt;
   document.boundaries = std::make_shared<const Boundaries>(
       derive_boundaries(mesh, *document.curvatures, document.lines, document.partitions));

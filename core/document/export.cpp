@@ -14,7 +14,7 @@ Result<void> write_curvature_ply(const std::string& path, const Document& docume
     values.push_back(field_values(*document.curvatures, field));
     properties.push_back({std::string(info_of(field).name), &values.back()});
   }
-  return write_ply(path, *document.mesh, properties);
+  return write_ply(path, *document.mesh, properties, length_unit_of(document));
 }
 
 }  // namespace arris

@@ -22,9 +22,16 @@ std::string_view layer_of(BoundaryType type) {
 
 }  // namespace
 
+std::string lengths_in(LengthUnit unit) {
+  return unit == LengthUnit::unknown ? "the unit of the scan" : std::string(info_of(unit).name);
+}
+
 HandedCurves handed_lines(const Document& document) {
-  HandedCurves handed{
-      *document.mesh, "lines", {"line", "convex", "angle_degrees", "length", "closed"}, {}};
+  HandedCurves handed{*document.mesh,
+                      length_unit_of(document),
+                      "lines",
+                      {"line", "convex", "angle_degrees", "length", "closed"},
+                      {}};
   for (const LinePtr& line : document.lines.lines)
     handed.curves.push_back(
         {"line_" + std::to_string(line->id) + (line->convex() ? "_convex" : "_concave"),
@@ -38,6 +45,7 @@ HandedCurves handed_lines(const Document& document) {
 
 HandedCurves handed_boundaries(const Document& document) {
   HandedCurves handed{*document.mesh,
+                      length_unit_of(document),
                       "boundaries",
                       {"boundary", "left_partition", "right_partition", "line", "angle_degrees",
                        "length", "closed"},

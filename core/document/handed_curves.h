@@ -21,6 +21,7 @@ struct HandedCurve {
 /// do.
 struct HandedCurves {
   const Mesh& mesh;
+  LengthUnit unit;
   std::string title;  ///< "lines", "boundaries".
   std::vector<std::string_view> columns;
   std::vector<HandedCurve> curves;
@@ -29,6 +30,9 @@ struct HandedCurves {
 /// The C0 lines: id, 1 for a convex one, mean angle in degrees (positive: convex), length, 1 for a
 /// closed one.
 HandedCurves handed_lines(const Document& document);
+
+/// "millimetres", or "the unit of the scan" where it is not known: what lengths in a file are in.
+std::string lengths_in(LengthUnit unit);
 
 /// All boundaries: number, the partitions left and right of it (0: none), id of the C0 line that it
 /// lies on (0: none), mean angle, length, 1 for a closed one.

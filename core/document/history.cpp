@@ -157,6 +157,18 @@ std::vector<std::uint32_t> History::closing_moves() const {
   return moves;
 }
 
+History History::copy_to_save() const {
+  History copy(budget_);
+  copy.entries_ = entries_;
+  copy.snapshots_.resize(entries_.size());
+  copy.names_ = names_;
+  copy.redo_child_ = redo_child_;
+  copy.current_ = current_;
+  copy.head_ = head_;
+  copy.files_ = files_;
+  return copy;
+}
+
 void History::set_journal(std::shared_ptr<Journal> journal) { journal_ = std::move(journal); }
 
 std::size_t History::bytes() const {

@@ -91,6 +91,10 @@ class History {
   /// where it leads.
   std::vector<std::uint32_t> closing_moves() const;
 
+  /// What another thread needs to save it while this one goes on: rows, names and the current
+  /// document, which it shares; neither the snapshots of other rows nor the journal.
+  History copy_to_save() const;
+
   /// Rows from now on are also written there.
   void set_journal(std::shared_ptr<Journal> journal);
   /// Where `open` finds files whose content is known when it is done again. Null: where they were.

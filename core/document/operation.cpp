@@ -17,7 +17,8 @@ constexpr const char* version_key = "version";
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 30> table{open_operation,
+  static const std::array<OperationKind, 31> table{open_operation,
+                                                   set_unit_operation,
                                                    flip_orientation_operation,
                                                    delete_faces_operation,
                                                    simplify_operation,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
+#include "core/document/handed_curves.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
@@ -29,7 +30,7 @@ void add_points(const Mesh& mesh, std::string_view before, std::string& text) {
 
 std::string partitions_obj(const Document& document) {
   const Mesh& mesh = *document.mesh;
-  std::string text = "# Arris; lengths in the unit of the scan\n";
+  std::string text = "# Arris; lengths in " + lengths_in(length_unit_of(document)) + "\n";
   add_points(mesh, "v ", text);
   const auto add_group = [&](const std::string& name, const std::vector<FaceId>& faces) {
     if (faces.empty()) return;

@@ -19,11 +19,6 @@ Result<void> write_curves(const std::string& path, const History& history) {
   return write_file_whole(path, text(curves(history.current())));
 }
 
-template <Curves curves>
-Result<void> write_step(const std::string& path, const History& history) {
-  return write_file_whole(path, curves_step(curves(history.current()), 1.0));
-}
-
 template <std::string (*text)(const Document&)>
 Result<void> write_text(const std::string& path, const History& history) {
   return write_file_whole(path, text(history.current()));
@@ -37,7 +32,8 @@ Result<void> write_partition_table(const std::string& path, const History& histo
 
 Result<void> write_scan_partitions(const std::string& path, const History& history) {
   const Document& document = history.current();
-  return write_labelled_scan(path, *document.scan, labels_on_scan(document));
+  return write_labelled_scan(path, *document.scan, labels_on_scan(document),
+                             length_unit_of(document));
 }
 
 Result<void> write_operations(const std::string& path, const History& history) {
@@ -50,7 +46,8 @@ std::span<const ResultFile> result_files() {
   static constexpr std::array files{
       ResultFile{"lines.obj", "Sharp lines as polylines", true,
                  write_curves<handed_lines, curves_obj>},
-      ResultFile{"lines.step", "Sharp lines for CAD, as curves", false, write_step<handed_lines>},
+      ResultFile{"lines.step", "Sharp lines for CAD, as curves", false,
+                 write_curves<handed_lines, curves_step>},
       ResultFile{"lines.dxf", "Sharp lines for CAD, convex and concave on layers", false,
                  write_curves<handed_lines, curves_dxf>},
       ResultFile{"lines.vtp", "Sharp lines for ParaView, with their angles", false,
@@ -60,7 +57,7 @@ std::span<const ResultFile> result_files() {
       ResultFile{"boundaries.obj", "Boundaries of partitions as polylines", true,
                  write_curves<handed_boundaries, curves_obj>},
       ResultFile{"boundaries.step", "Boundaries for CAD, as curves", false,
-                 write_step<handed_boundaries>},
+                 write_curves<handed_boundaries, curves_step>},
       ResultFile{"boundaries.dxf", "Boundaries for CAD, their types on layers", false,
                  write_curves<handed_boundaries, curves_dxf>},
       ResultFile{"boundaries.vtp", "Boundaries for ParaView, with their partitions", false,

@@ -280,6 +280,14 @@ Result<void> SessionFile::set_saved_as(const std::string& file) {
   });
 }
 
+Result<void> SessionFile::set_view(const std::string& view) {
+  return in_transaction([&] {
+    return Statement(database_, "INSERT OR REPLACE INTO views VALUES ('', ?)")
+        .bind_text(view)
+        .run();
+  });
+}
+
 Result<void> SessionFile::write_row(const HistoryEntry& entry) {
   Statement insert(database_, "INSERT INTO rows VALUES (?, ?, ?, ?)");
   const std::string operation = entry.operation.text();

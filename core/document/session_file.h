@@ -67,6 +67,8 @@ class SessionFile : public Journal {
 
   /// The file that was saved last (SessionExtras::saved_as).
   Result<void> set_saved_as(const std::string& file);
+  /// How the part is looked at by now (SessionExtras::view).
+  Result<void> set_view(const std::string& view);
 
   /// What it holds, in the order of a journal.
   Result<std::vector<JournalRecord>> records() const;

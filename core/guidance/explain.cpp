@@ -58,10 +58,11 @@ std::string origin_text(Origin origin) {
 class EdgeTests {
  public:
   EdgeTests(const Mesh& mesh, const Curvatures& curvatures, const SharpLineOptions& options,
-            EdgeId e)
+            LengthUnit unit, EdgeId e)
       : mesh_(mesh),
         curvatures_(curvatures),
         options_(options),
+        unit_(unit),
         e_(e),
         angle_(std::abs(curvatures.beta[e]) * 180.0 / std::numbers::pi),
         tv_ik_(ikabs_of_straight_edge(options.angle * std::numbers::pi / 180.0)) {}
@@ -146,7 +147,7 @@ class EdgeTests {
       remove_short_lines(mesh_, curvatures_, options_.min_length, edges);
       if (!is_sharp(e_))
         return "it was found, but its line and what it touches are shorter than min_length, " +
-               short_text(options_.min_length) + " mm";
+               with_unit(short_text(options_.min_length), unit_);
     }
     return corrected_away;
   }
@@ -202,6 +203,7 @@ class EdgeTests {
   const Mesh& mesh_;
   const Curvatures& curvatures_;
   const SharpLineOptions& options_;
+  const LengthUnit unit_;
   const EdgeId e_;
   const double angle_;  // degrees
   const double tv_ik_;
@@ -231,9 +233,11 @@ class FaceRules {
   std::uint32_t fill_holes() const { return fill_holes_; }
   double value(VertexId v) const { return values_[v]; }
   std::string name() const { return criterion_ == Criterion::kabs ? "Kabs" : "IKabs"; }
-  std::string unit() const { return criterion_ == Criterion::kabs ? "1/mm²" : ""; }
+  std::string unit() const {
+    return criterion_ == Criterion::kabs ? unit_text(length_unit_of(document_), -2) : "";
+  }
   std::string text(double value) const {
-    return short_text(value) + (criterion_ == Criterion::kabs ? " 1/mm²" : "");
+    return unit().empty() ? short_text(value) : short_text(value) + " " + unit();
   }
 
   bool on_line(VertexId v) const { return is_on_line(mesh_, document_.lines, v); }
@@ -404,6 +408,7 @@ Explanation explain_edge(const Document& document, EdgeId e) {
     }
   }
   const SharpLineOptions options = line_options_of(step->parameters);
+  const LengthUnit unit = length_unit_of(document);
   const auto headline_of = [&](const std::optional<std::string>& failed, const auto& looked_up) {
     std::string reason;
     if (!there)
@@ -419,7 +424,8 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   if (options.method == LineMethod::normal_jump) {
     if (!base.evidence)
       base.evidence = std::make_shared<const SharedLineEvidence>(base.mesh, base.curvatures);
-    JumpTests jump = test_by_jump(*base.mesh, **base.evidence->get(), options, there.value_or(e));
+    JumpTests jump =
+        test_by_jump(*base.mesh, **base.evidence->get(), options, unit, there.value_or(e));
     result.tests = std::move(jump.tests);
     // The headline says the very value that decides.
     if (result.holds)
@@ -431,7 +437,7 @@ Explanation explain_edge(const Document& document, EdgeId e) {
       result.headline = headline_of(jump.failed, [] { return std::string(corrected_away); });
     return result;
   }
-  const EdgeTests tests(*base.mesh, *base.curvatures, options, there.value_or(e));
+  const EdgeTests tests(*base.mesh, *base.curvatures, options, unit, there.value_or(e));
   // Sharp edges keep their vertices from mesh to mesh; both meshes share the vertices.
   result.tests = tests.all([&](EdgeId other) {
     if (base.mesh == document.mesh) return document.lines.is_sharp(other);

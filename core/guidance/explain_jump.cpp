@@ -13,8 +13,6 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::string length_text(double value) { return measure_text(value) + " mm"; }
-
 bool contains(const std::vector<EdgeId>& edges, EdgeId e) {
   return std::binary_search(edges.begin(), edges.end(), e);
 }
@@ -51,7 +49,7 @@ double jump_that_counts(const LineEvidence& evidence, EdgeId e) {
 }
 
 JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
-                       const SharpLineOptions& options, EdgeId e) {
+                       const SharpLineOptions& options, LengthUnit unit, EdgeId e) {
   JumpTests result;
   const auto add = [&](ExplainedTest test) { result.tests.push_back(std::move(test)); };
   const bool inside = !mesh.is_border_edge(e);
@@ -147,14 +145,14 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   }
   const Group group = group_of(mesh, evidence.candidates, chosen, e);
   const bool kept = contains(choose_sharp_edges(mesh, evidence, options), e);
-  add({"Length", group.length, options.min_length, "mm", kept,
-       "Its line and what it touches are " + length_text(group.length) + " long; " +
+  add({"Length", group.length, options.min_length, unit_text(unit), kept,
+       "Its line and what it touches are " + length_in_words(group.length, unit) + " long; " +
            (group.exact && group.length < options.min_length
                 ? "without noise even short ones stay."
-                : "shorter than " + length_text(options.min_length) + " they go.")});
+                : "shorter than " + length_in_words(options.min_length, unit) + " they go.")});
   if (!kept)
-    result.failed = "its line and what it touches are " + length_text(group.length) +
-                    " long, shorter than min_length, " + length_text(options.min_length);
+    result.failed = "its line and what it touches are " + length_in_words(group.length, unit) +
+                    " long, shorter than min_length, " + length_in_words(options.min_length, unit);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/guidance/explain.h"
+#include "core/mesh/length_unit.h"
 #include "core/sharp_lines/jump_profile.h"
 #include "core/sharp_lines/line_evidence.h"
 #include "core/sharp_lines/sharp_lines.h"
@@ -24,7 +25,8 @@ struct JumpTests {
 double jump_that_counts(const LineEvidence& evidence, EdgeId e);
 
 /// Tests edge e of a mesh as find_sharp_edges() does under `options`, from the evidence on it.
+/// Lengths are told in `unit`.
 JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
-                       const SharpLineOptions& options, EdgeId e);
+                       const SharpLineOptions& options, LengthUnit unit, EdgeId e);
 
 }  // namespace arris

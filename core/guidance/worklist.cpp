@@ -35,9 +35,6 @@ constexpr double least_sharpness = 0.4, abrupt = 1.5, abrupt_edges = 3.0;
 /// Places looked at from one loose end, the cheapest first.
 constexpr std::size_t most_arrivals = 8;
 
-std::string mm_text(double length) { return measure_text(length) + " mm"; }
-std::string area_text(double area) { return measure_text(area) + " mm²"; }
-
 /// The vertices that span a set: those farthest out along each axis.
 std::vector<VertexId> extremes(const Mesh& mesh, const std::vector<VertexId>& vertices) {
   std::vector<VertexId> result;
@@ -228,6 +225,7 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
     item.lines = {end.line};
     items.push_back(std::move(item));
   }
+  const LengthUnit unit = length_unit_of(document);
   const Result<LineEvidencePtr> evidence = line_evidence_of(document);
   const bool by_jump = evidence && *evidence;
   keep_largest(items, options.most_per_kind);
@@ -245,8 +243,8 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
         WorkItem& item = items[k];
         const auto end = std::ranges::find_if(
             ends.loose(), [&](const LooseEnd& e) { return e.vertex == item.vertices[0]; });
-        item.sentence =
-            "Line " + std::to_string(end->line) + " (" + mm_text(end->length) + ") just stops";
+        item.sentence = "Line " + std::to_string(end->line) + " (" +
+                        length_in_words(end->length, unit) + ") just stops";
         if (k >= with_ways) {
           item.sentence += ".";
           return;
@@ -265,11 +263,11 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
           }
         }
         if (item.continuations.empty()) {
-          item.sentence += "; there is no way on within " + mm_text(reach) + ".";
+          item.sentence += "; there is no way on within " + length_in_words(reach, unit) + ".";
           return;
         }
         const Continuation& best = item.continuations.front();
-        item.sentence += "; the best way on runs " + mm_text(best.length) +
+        item.sentence += "; the best way on runs " + length_in_words(best.length, unit) +
                          (best.line != 0 ? " to line " + std::to_string(best.line)
                           : best.arrives ? std::string(" to the border")
                                          : std::string(" and fades out")) +
@@ -290,6 +288,7 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
       find_leaks(*document.mesh, document.lines, document.partitions, leak_options, context);
   if (!leaks) return tl::unexpected<Error>(leaks.error());
   const LineEnds ends(*document.mesh, document.lines);
+  const LengthUnit unit = length_unit_of(document);
   std::vector<WorkItem> items;
   for (const Leak& leak : *leaks) {
     WorkItem item;
@@ -308,8 +307,8 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
     const std::size_t gaps = item.paths.size();
     item.sentence = "Partition " + std::to_string(leak.partition) + " runs through " +
                     (gaps == 1 ? std::string("a gap") : std::to_string(gaps) + " gaps") + " of " +
-                    mm_text(leak.gap) + (gaps == 1 ? "" : " in all") + " into another " +
-                    area_text(leak.area) + ".";
+                    length_in_words(leak.gap, unit) + (gaps == 1 ? "" : " in all") +
+                    " into another " + area_in_words(leak.area, unit) + ".";
     items.push_back(std::move(item));
   }
   return items;
@@ -317,6 +316,7 @@ Result<std::vector<WorkItem>> leak_items(const Document& document, const Worklis
 
 std::vector<WorkItem> unassigned_items(const Document& document) {
   const Mesh& mesh = *document.mesh;
+  const LengthUnit unit = length_unit_of(document);
   std::vector<WorkItem> items;
   std::vector<bool> seen(mesh.face_count(), false);
   std::vector<FaceId> front;
@@ -348,7 +348,7 @@ std::vector<WorkItem> unassigned_items(const Document& document) {
     item.face = start;
     item.vertices = extremes(mesh, corners);
     item.partitions.assign(beside.begin(), beside.end());
-    item.sentence = area_text(item.size) + " (" + std::to_string(front.size()) +
+    item.sentence = area_in_words(item.size, unit) + " (" + std::to_string(front.size()) +
                     (front.size() == 1 ? " face" : " faces") + ") in no partition.";
     items.push_back(std::move(item));
   }
@@ -365,6 +365,7 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
                                 const Context& context, std::vector<WorkItem>& undefined,
                                 std::vector<WorkItem>& slivers) {
   const Mesh& mesh = *document.mesh;
+  const LengthUnit unit = length_unit_of(document);
   std::unordered_map<std::uint32_t, BorderExtent> extents;
   for (const BoundaryPtr& derived : *document.boundaries) {
     const Boundary& boundary = *derived;
@@ -382,7 +383,7 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
     item.extent = boundary.length;
     item.partitions = {std::max(boundary.left, boundary.right)};
     item.sentence = "Partition " + std::to_string(item.partitions[0]) + " ends over " +
-                    mm_text(boundary.length) + " where no other begins.";
+                    length_in_words(boundary.length, unit) + " where no other begins.";
     item.vertices = boundary.vertices;
     undefined.push_back(std::move(item));
   }
@@ -403,7 +404,8 @@ Result<void> add_boundary_items(const Document& document, const WorklistOptions&
     item.partitions = {partition->id};
     item.vertices = extremes(mesh, extent.vertices);
     item.sentence = "Partition " + std::to_string(partition->id) + " is only about " +
-                    mm_text(width) + " wide over " + mm_text(length) + ".";
+                    length_in_words(width, unit) + " wide over " + length_in_words(length, unit) +
+                    ".";
     slivers.push_back(std::move(item));
   }
   if (slivers.empty()) return {};
@@ -516,13 +518,14 @@ Result<WorkItem> with_cuts(const Document& document, WorkItem item, const Contex
   }
   item.sentence.pop_back();  // the full stop
   const std::size_t cuts = item.paths.size();
+  const LengthUnit unit = length_unit_of(document);
   if (cuts > 0)
-    item.sentence +=
-        "; " +
-        (cuts == 1 ? std::string("a cut of ") + mm_text(length)
-                   : std::to_string(cuts) + " cuts of " + mm_text(length) + " in all") +
-        (plan->obstacle.empty() ? " would leave no piece with more than four"
-                                : " would leave fewer");
+    item.sentence += "; " +
+                     (cuts == 1 ? std::string("a cut of ") + length_in_words(length, unit)
+                                : std::to_string(cuts) + " cuts of " +
+                                      length_in_words(length, unit) + " in all") +
+                     (plan->obstacle.empty() ? " would leave no piece with more than four"
+                                             : " would leave fewer");
   if (!plan->obstacle.empty())
     item.sentence += (cuts > 0 ? ", but not four: " : "; no cut is proposed: ") + plan->obstacle;
   item.sentence += ".";

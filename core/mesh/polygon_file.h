@@ -14,7 +14,8 @@ namespace arris {
 struct PolygonFile {
   /// "STL (binary)", "STL (ASCII)", "PLY", "OBJ", "OFF", "3MF"; of a compressed file with ", gzip".
   std::string format;
-  std::string unit;                ///< Of lengths, as the file names it: "millimeter"; 3MF only.
+  /// Of lengths, as the file names it: "millimeter". 3MF, and PLY as write_ply() writes it, only.
+  std::string unit;
   std::vector<std::string> notes;  ///< What is odd about the file, a sentence each.
   std::vector<Point> points;       ///< STL: welded where coordinates are equal.
   std::vector<std::uint64_t>

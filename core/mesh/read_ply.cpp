@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/length_unit.h"
 #include "core/mesh/readers.h"
 #include "core/mesh/text_scanner.h"
 
@@ -100,6 +101,7 @@ struct Header {
   std::vector<Element> elements;
   std::size_t size = 0;   // bytes up to the data
   std::size_t lines = 0;  // lines up to the data
+  std::string unit;       // of lengths, as write_ply() names it in a comment
 
   const Element* find(std::string_view name) const {
     for (const Element& element : elements)
@@ -175,7 +177,11 @@ Result<Header> read_header(const FileBytes& file) {
       property.name = words.word();
       if (property.name.empty()) return wrong("the property has no name.");
       header.elements.back().properties.push_back(std::move(property));
-    } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+    } else if (keyword == "comment") {
+      // PLY has no units; that which write_ply() names comes back.
+      if (words.word() == "lengths" && words.word() == "in")
+        if (const std::string_view name = words.word(); find_length_unit(name)) header.unit = name;
+    } else if (keyword != "obj_info" && !keyword.empty()) {
       return wrong("unknown word " + arris::quoted(keyword) + " in the header.");
     }
   }
@@ -466,6 +472,7 @@ Result<void> read_ply(const FileBytes& file, PolygonFile& out, const Context& co
   const Result<Header> header = read_header(file);
   if (!header) return tl::unexpected(header.error());
   if (const Result<void> ok = check(file, *header); !ok) return ok;
+  out.unit = header->unit;
   out.starts.push_back(0);
   constexpr bool little_machine = std::endian::native == std::endian::little;
   const Result<void> done =

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/base/machine_memory.h"
 #include "core/mesh/build_mesh.h"
 #include "core/mesh/coordinate_step.h"
 #include "core/mesh/scan_content.h"
@@ -41,6 +42,10 @@ std::vector<VertexId> applied(const Weld& weld, const std::vector<VertexId>& cor
 /// Vertices as computed twice with the last digits of the file may lie this many of its steps apart
 /// (two along each axis, and some).
 constexpr double steps_apart = 4.0;
+
+/// What opening a part takes of memory at most, measured on millions of triangles: its file's
+/// polygons, the mesh, its curvatures and what is needed on the way there.
+constexpr std::uint64_t bytes_per_triangle = 250;
 
 /// Builds the mesh of the vertices that remain when those on one place are joined.
 Result<BuiltMesh> build_joined(const PolygonFile& file, const ScanOptions& options,
@@ -107,6 +112,12 @@ Result<ScanPtr> load_scan_content(const std::string& path, FileContent content,
 
 Result<ScanPtr> make_scan(PolygonFile polygons, const std::string& name, const Context& context,
                           const ScanOptions& options) {
+  // Each polygon of k corners becomes k - 2 triangles.
+  const std::uint64_t corners = polygons.corners.size(), count = polygons.polygon_count();
+  const std::uint64_t triangles = corners > 2 * count ? corners - 2 * count : 0;
+  const auto fits = check_memory(name + " with its " + std::to_string(triangles) + " triangles",
+                                 triangles * bytes_per_triangle);
+  if (!fits) return tl::unexpected<Error>(fits.error());
   return within_memory(name, [&]() -> Result<ScanPtr> {
     auto scan = std::make_shared<Scan>();
     scan->report.file = name;

@@ -36,11 +36,14 @@ bool are_floats(std::span<const Point> points) {
   });
 }
 
-std::string header_begin(std::span<const Point> points, bool floats) {
+std::string header_begin(std::span<const Point> points, bool floats, LengthUnit unit) {
   const std::string type = floats ? "float" : "double";
-  return "ply\nformat binary_little_endian 1.0\ncomment written by Arris\nelement vertex " +
-         std::to_string(points.size()) + "\nproperty " + type + " x\nproperty " + type +
-         " y\nproperty " + type + " z\n";
+  return "ply\nformat binary_little_endian 1.0\ncomment written by Arris\n" +
+         (unit == LengthUnit::unknown
+              ? ""
+              : "comment lengths in " + std::string(info_of(unit).name) + "\n") +
+         "element vertex " + std::to_string(points.size()) + "\nproperty " + type +
+         " x\nproperty " + type + " y\nproperty " + type + " z\n";
 }
 
 void append_point(std::string& out, const Point& point, bool floats) {
@@ -94,9 +97,9 @@ std::vector<std::uint32_t> polygon_labels(const Scan& scan,
 }  // namespace
 
 Result<void> write_ply(const std::string& path, const Mesh& mesh,
-                       const std::vector<VertexProperty>& properties) {
+                       const std::vector<VertexProperty>& properties, LengthUnit unit) {
   const bool floats = are_floats(mesh.points());
-  std::string content = header_begin(mesh.points(), floats);
+  std::string content = header_begin(mesh.points(), floats, unit);
   for (const VertexProperty& property : properties) {
     if (property.name.empty() || property.name.find_first_of(" \t\r\n\v\f") != std::string::npos)
       return fail(path + " cannot be written: \"" + property.name +
@@ -123,7 +126,7 @@ Result<void> write_ply(const std::string& path, const Mesh& mesh,
 }
 
 Result<void> write_labelled_scan(const std::string& path, const Scan& scan,
-                                 const std::vector<std::uint32_t>& face_labels) {
+                                 const std::vector<std::uint32_t>& face_labels, LengthUnit unit) {
   const Mesh& mesh = *scan.mesh;
   if (face_labels.size() != mesh.face_count())
     return fail(path + " cannot be written: there are " + std::to_string(face_labels.size()) +
@@ -142,7 +145,7 @@ Result<void> write_labelled_scan(const std::string& path, const Scan& scan,
       long_lists = long_lists || file->starts[k + 1] - file->starts[k] > 255;
 
     const bool floats = are_floats(points);
-    std::string content = header_begin(points, floats);
+    std::string content = header_begin(points, floats, unit);
     content += "element face " + std::to_string(polygon_count) + "\nproperty list " +
                (long_lists ? "uint" : "uchar") +
                " int vertex_indices\nproperty int partition\nend_header\n";

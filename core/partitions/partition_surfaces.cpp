@@ -143,18 +143,18 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
   return result;
 }
 
-std::string size_text(const Surface& surface) {
+std::string size_text(const Surface& surface, LengthUnit unit) {
   const auto text = [](double value) { return number_text(value, 4); };
   switch (surface.type) {
     case SurfaceType::sphere:
     case SurfaceType::cylinder:
-      return "R " + text(surface.radius) + " mm";
+      return "R " + with_unit(text(surface.radius), unit);
     case SurfaceType::cone:
       return "half angle " + number_text(surface.half_angle * 180.0 / std::numbers::pi, 3) + "°";
     case SurfaceType::torus:
-      return "R " + text(surface.radius) + ", r " + text(surface.tube) + " mm";
+      return "R " + text(surface.radius) + ", r " + with_unit(text(surface.tube), unit);
     case SurfaceType::blend:
-      return "r " + text(surface.tube) + " mm";
+      return "r " + with_unit(text(surface.tube), unit);
     default:
       return "";
   }

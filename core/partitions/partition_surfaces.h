@@ -5,6 +5,7 @@
 
 #include "core/base/context.h"
 #include "core/base/result.h"
+#include "core/mesh/length_unit.h"
 #include "core/mesh/mesh.h"
 #include "core/partitions/partitions.h"
 #include "core/partitions/surface_fit.h"
@@ -30,6 +31,6 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
                                                              const Context& context = {});
 
 /// "R 12.9 mm", "half angle 15°", "R 30, r 3 mm"; empty for planes and free areas.
-std::string size_text(const Surface& surface);
+std::string size_text(const Surface& surface, LengthUnit unit);
 
 }  // namespace arris

@@ -439,9 +439,9 @@ Result<Prepared> simplify(const Mesh& mesh, const ErrorZonesPtr& zones,
                           const Context& context) {
   if ((options.error_zone && !is_length(*options.error_zone)) ||
       !std::ranges::all_of(options.radii, is_length))
-    return fail("The error zone has to be a length in mm, 0 or more.");
+    return fail("The error zone has to be a length, 0 or more.");
   if (!is_length(options.max_edge_length))
-    return fail("The longest edge has to be a length in mm; 0 sets no limit.");
+    return fail("The longest edge has to be a length; 0 sets no limit.");
   if (!options.radii.empty() && options.radii.size() != mesh.vertex_count())
     return fail("There are " + std::to_string(options.radii.size()) + " error zones for " +
                 std::to_string(mesh.vertex_count()) + " vertices: one for each is needed.");

@@ -262,6 +262,54 @@ TEST_F(Cli, VersionsInASessionAreCompared) {
   EXPECT_EQ(folder.read("version/lines.obj"), folder.read("found/lines.obj"));
 }
 
+// Wherever results have a place for it; the results themselves are the same.
+TEST_F(Cli, TheUnitStandsInResultsAndSessions) {
+  const std::string part = small_part();
+  ASSERT_EQ(run({"segment", part, "-o", folder.file("plain")}).code, 0);
+  ASSERT_EQ(run({"segment", part, "-o", folder.file("cm"), "--unit", "cm", "--session",
+                 folder.file("cm.arris")})
+                .code,
+            0);
+  EXPECT_EQ(summary("plain")["unit"], "unknown");
+  EXPECT_EQ(summary("cm")["unit"], "cm");
+  EXPECT_EQ(folder.read("plain/operations.jsonl").find("unit"), std::string::npos);
+  const auto head = [&](const std::string& name) {
+    const std::string text = folder.read(name);
+    return text.substr(0, text.find('\n'));
+  };
+  const auto rest = [&](const std::string& name) {
+    const std::string text = folder.read(name);
+    return text.substr(text.find('\n'));
+  };
+  for (const std::string name : {"lines.obj", "boundaries.obj"}) {
+    EXPECT_EQ(head("plain/" + name), "# Arris; lengths in the unit of the scan");
+    EXPECT_EQ(head("cm/" + name), "# Arris; lengths in centimetres");
+    EXPECT_EQ(rest("cm/" + name), rest("plain/" + name));
+  }
+  std::string ply = folder.read("cm/scan_partitions.ply");
+  const std::string comment = "comment lengths in centimetres\n";
+  ASSERT_NE(ply.find(comment), std::string::npos);
+  EXPECT_EQ(ply.erase(ply.find(comment), comment.size()), folder.read("plain/scan_partitions.ply"));
+  // The session has it, and so has what is made of that.
+  ASSERT_EQ(run({"replay", folder.file("cm.arris"), "-o", folder.file("again")}).code, 0);
+  EXPECT_EQ(summary("again")["unit"], "cm");
+  expect_same_files(folder, "cm", "again");
+  // It can be said afterwards; a second time it changes nothing.
+  ASSERT_EQ(run({"replay", folder.file("plain/operations.jsonl"), "-o", folder.file("said"),
+                 "--unit", "in"})
+                .code,
+            0);
+  EXPECT_EQ(summary("said")["unit"], "in");
+  const Outcome twice = run(
+      {"replay", folder.file("said/operations.jsonl"), "-o", folder.file("twice"), "--unit", "in"});
+  EXPECT_EQ(twice.code, 0) << twice.err;
+  EXPECT_EQ(folder.read("twice/operations.jsonl"), folder.read("said/operations.jsonl"));
+  // What Arris wrote keeps its unit.
+  EXPECT_EQ(json::parse(
+                run({"info", "--json", folder.file("cm/scan_partitions.ply")}).out)["length_unit"],
+            "cm");
+}
+
 TEST_F(Cli, SampleMouldThereAndBack) {
   const std::string mould = folder.file("mould.ply");
   expect_done({"sample", "-o", mould});

@@ -214,6 +214,30 @@ TEST_F(Cli, InfoTellsWhatTheScanHolds) {
   EXPECT_EQ(report["content_hash"].get<std::string>().size(), 32u);
 }
 
+// Said by nobody, it is not said; and there is a way to say it.
+TEST_F(Cli, AUnitIsToldWhereItIsKnownAndAskedForWhereItIsNot) {
+  const std::string part = small_part();
+  const Outcome none = run({"info", part});
+  EXPECT_EQ(none.code, 0);
+  EXPECT_EQ(none.out.find(" mm\n"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("size: 20 x 20 x 4, mean edge"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("the file names no unit"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("millimetres"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("--unit mm"), std::string::npos) << none.out;
+  const json guessed = json::parse(run({"info", part, "--json"}).out);
+  EXPECT_EQ(guessed["length_unit"], "unknown");
+  EXPECT_EQ(guessed["likely_units"][0], "mm");
+  const Outcome inches = run({"info", part, "--unit", "Inch"});
+  EXPECT_EQ(inches.code, 0);
+  EXPECT_NE(inches.out.find("size: 20 x 20 x 4 in, mean edge"), std::string::npos) << inches.out;
+  EXPECT_EQ(inches.out.find("no unit"), std::string::npos) << inches.out;
+  const json said = json::parse(run({"info", part, "--json", "--unit", "cm"}).out);
+  EXPECT_EQ(said["length_unit"], "cm");
+  EXPECT_FALSE(said.contains("likely_units"));
+  expect_bad_usage({"info", part, "--unit", "furlong"});
+  expect_bad_usage({"segment", part, "-o", folder.file("none"), "--unit", ""});
+}
+
 TEST_F(Cli, InfoTellsWhatWasMended) {
   // A square, a face of no extent, and a third face on one edge.
   const std::string scan = folder.write(

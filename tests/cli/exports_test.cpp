@@ -19,8 +19,7 @@ namespace {
 
 using namespace testing;
 
-/// A cube, a cylinder's wall and rims between them would be more than is needed: a step has two
-/// lines and three partitions, a cylinder closed lines.
+/// A cylinder with two closed lines and three partitions, as a session.
 class Exports : public Cli {
  protected:
   void SetUp() override {
@@ -142,6 +141,24 @@ TEST_F(Exports, StepHasEachCurveInMillimetresAndSharesPoints) {
     }
     expect_near(lengths, lengths_in(what));
   }
+}
+
+TEST_F(Exports, CadGetsTheUnit) {
+  const auto in_inches = [&](const std::string& ending) {
+    expect_done_saying({"export", folder.file("part.arris"), "--what", "lines", "--unit", "in",
+                        "-o", folder.file("inches" + ending)},
+                       "written to");
+    return folder.read("inches" + ending);
+  };
+  EXPECT_NE(in_inches(".dxf").find("$INSUNITS\n70\n1\n"), std::string::npos);
+  EXPECT_NE(exported("lines", ".dxf").find("$INSUNITS\n70\n0\n"), std::string::npos);
+  // A cylinder of 5 inches.
+  const std::string step = in_inches(".step");
+  const std::regex point("CARTESIAN_POINT\\('',\\(([^,]*),([^,]*),");
+  double farthest = 0.0;
+  for (std::sregex_iterator it(step.begin(), step.end(), point), end; it != end; ++it)
+    farthest = std::max(farthest, std::hypot(std::stod((*it)[1]), std::stod((*it)[2])));
+  EXPECT_NEAR(farthest, 5.0 * 25.4, 1e-3);
 }
 
 TEST_F(Exports, TablesAndPointsHoldWhatTheSummarySays) {

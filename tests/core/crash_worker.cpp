@@ -1,10 +1,15 @@
 // The process that crash tests kill: works on a session until that happens, and says on a
 // descriptor what it was told to be on disk.
-//   arris_crash_worker SESSION append|save
+//   arris_crash_worker SESSION append|save|migrate|import
+// "migrate" copies a session of an older format to SESSION.1, SESSION.2, ... and brings each up to
+// date, "import" makes sessions of a journal there; each says its number with 1 as it begins and
+// with 2 once it is done.
 
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -25,11 +30,27 @@ int main(int argc, char** argv) {
   using namespace arris;
   if (argc != 3) return 2;
   const char* path = argv[1];
+  const std::string_view what = argv[2];
+  if (what == "migrate" || what == "import")
+    for (std::uint32_t k = 1;; ++k) {
+      const std::string made = std::string(path) + "." + std::to_string(k);
+      if (what == "migrate") {
+        std::filesystem::copy_file(path, made, std::filesystem::copy_options::overwrite_existing);
+        say(k, 1);
+        if (!SessionFile::go_on(made)) std::abort();
+      } else {
+        std::filesystem::remove(made);
+        say(k, 1);
+        const Result<Replay> journal = replay(path);
+        if (!journal || !SessionFile::start(made, journal->history)) std::abort();
+      }
+      say(k, 2);
+    }
   const auto session = SessionFile::go_on(path);
   Result<Replay> replayed = replay(path);
   if (!session || !replayed) std::abort();
   History history = std::move(replayed->history);
-  if (std::string_view(argv[2]) == "save")
+  if (what == "save")
     for (std::uint32_t row = 1;; row = 3 - row) {
       if (!history.travel(row) || !save_session(path, history, {})) std::abort();
       say(0, row);

@@ -3,7 +3,6 @@
 #include "core/document/session_file.h"
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <spawn.h>
 #include <sys/resource.h>
@@ -24,6 +23,7 @@
 #include "core/document/scan_places.h"
 #include "tests/core/crash_worker.h"
 #include "tests/support/documents.h"
+#include "tests/support/older_session.h"
 #include "tests/support/packing.h"
 
 extern char** environ;
@@ -65,14 +65,7 @@ class SessionFileTest : public ::testing::Test {
     EXPECT_EQ(hash_of(a.current()), hash_of(b.current()));
   }
   /// Changes a session behind its back.
-  void change(const std::string& sql) const {
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-    char* error = nullptr;
-    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK)
-        << sql << ": " << error;
-    sqlite3_close(database);
-  }
+  void change(const std::string& sql) const { change_session(path, sql); }
   /// It does not open, and one sentence says why.
   void expect_refused(const std::string& shown) const {
     for (const std::string& message :
@@ -253,7 +246,7 @@ TEST_F(SessionFileTest, OneOfANewerFormatIsRefusedInASentence) {
 TEST_F(SessionFileTest, OneOfAnOlderFormatIsBroughtUpToDateWhereItIsWrittenTo) {
   const History history = two_branches();
   ok(save_session(path, history, {}));
-  change("DROP TABLE pictures; DROP TABLE snapshots; PRAGMA user_version = 1; VACUUM;");
+  make_older(path);
   const std::string before = folder.read("session.arris");
   expect_same(value_of(replay(path)).history, history);
   EXPECT_EQ(value_of(value_of(SessionFile::read(path))->extras()).picture, "");
@@ -506,6 +499,21 @@ TEST_F(SessionSnapshots, ASignedSnapshotTakesThePlaceOfTheRowsBeforeIt) {
   }
 }
 
+// Running the rows gives what was saved, to the byte.
+TEST_F(SessionSnapshots, ReplayGivesTheSnapshotByteForByte) {
+  for (const std::uint32_t head : {9u, 8u, 7u, 5u, 4u, 2u}) {
+    History history = of_everything();
+    ok(history.travel(head));
+    ok(save_session(path, history, signed_by_us()));
+    const auto saved = value_of(value_of(SessionFile::read(path))->snapshot(key));
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(saved->row, head);
+    const Replay run = value_of(replay(path));
+    EXPECT_EQ(run.history.head(), head);
+    EXPECT_TRUE(bytes_of(run.history.current()) == saved->bytes) << head;
+  }
+}
+
 TEST_F(SessionSnapshots, WhatWasDoneAfterTheSnapshotIsRun) {
   for (const std::uint32_t head : {9u, 6u, 1u}) {  // where the snapshot is
     History history = of_everything();
@@ -544,7 +552,8 @@ TEST_F(SessionSnapshots, HoldEveryDocumentButThoseWithSmoothedCurvatures) {
         {"smooth_curvature", {{"passes", 1}}},
         lines(random.uniform(10.0, 60.0)),
         {"find_partitions", {{"method", k % 2 ? "fronts" : "surfaces"}}},
-        {"remove_small_partitions", {{"faces", 5}}}};
+        {"remove_small_partitions", {{"faces", 5}}},
+        {"set_unit", {{"unit", k % 2 ? "mm" : "in"}}}};
     static_cast<void>(history.run(choices[random.bits() % choices.size()]));
     const Document& document = history.current();
     const std::optional<std::string> bytes = bytes_of(document);
@@ -587,16 +596,16 @@ class SessionCrash : public SessionFileTest {
     const char* wanted = std::getenv("ARRIS_KILLS");  // more of them, by hand
     return wanted ? std::atoi(wanted) : 15;
   }
-  /// Starts the process of crash_worker.cpp, kills it some time after its first word, and gives its
-  /// last one.
-  Acknowledged work_and_kill(std::uint64_t microseconds, bool saves) const {
+  /// Starts the process of crash_worker.cpp on `what`, kills it some time after its first word, and
+  /// gives its last one.
+  Acknowledged work_and_kill(std::uint64_t microseconds, const std::string& what) const {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], to_the_parent);
     posix_spawn_file_actions_addclose(&actions, ends[0]);
-    std::vector<std::string> words{ARRIS_CRASH_WORKER, path, saves ? "save" : "append"};
+    std::vector<std::string> words{ARRIS_CRASH_WORKER, path, what};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -638,7 +647,7 @@ TEST_F(SessionCrash, NoAcknowledgedRowIsLostByAKill) {
   Random random(::getpid());
   std::size_t begun = 2;
   for (int k = 0; k < kills(); ++k) {
-    const Acknowledged last = work_and_kill(random.bits() % 60000, false);
+    const Acknowledged last = work_and_kill(random.bits() % 60000, "append");
     ASSERT_GT(last.rows, begun) << "it worked before it was killed";
     // The next start takes back what was half written.
     ASSERT_TRUE(SessionFile::go_on(path));
@@ -662,13 +671,58 @@ TEST_F(SessionCrash, AKillWhileSavingLeavesTheOldFileOrTheNew) {
   ok(save_session(path, history, {}));
   Random random(::getpid());
   for (int k = 0; k < kills(); ++k) {
-    const Acknowledged last = work_and_kill(random.bits() % 30000, true);
+    const Acknowledged last = work_and_kill(random.bits() % 30000, "save");
     ASSERT_NE(last.head, 0u) << "it saved before it was killed";
     const Replay again = value_of(replay(path));
     EXPECT_TRUE(again.warnings.empty());
     EXPECT_EQ(again.history.entries().size(), 2u);
     EXPECT_EQ(hash_of(again.history.current()), hashes[again.history.head() - 1]);
   }
+  // What the killed ones left half written goes with the next saving.
+  folder.write(".arris-notes.part", "of somebody else");
+  ok(save_session(path, history, {}));
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    if (entry.path().extension() == ".part") left.push_back(entry.path().filename().string());
+  EXPECT_EQ(left, std::vector<std::string>{".arris-notes.part"});
+}
+
+// The first version of the format, brought up to date: in one step, or not at all.
+TEST_F(SessionCrash, AKillInTheMiddleOfAMigrationLosesNothing) {
+  const History history = two_branches();
+  ok(save_session(path, history, {}));
+  make_older(path);
+  Random random(::getpid());
+  std::size_t in_the_middle = 0;
+  for (int k = 0; k < kills(); ++k) {
+    const Acknowledged last = work_and_kill(random.bits() % 40000, "migrate");
+    ASSERT_NE(last.rows, 0u) << "it began before it was killed";
+    in_the_middle += last.head == 1;
+    const std::string migrated = path + "." + std::to_string(last.rows);
+    const auto again = SessionFile::go_on(migrated);
+    ASSERT_TRUE(again) << again.error().message;
+    expect_same(value_of(replay(migrated)).history, history);
+  }
+  EXPECT_GT(in_the_middle, 0u);
+}
+
+// A journal of version 0.1 becomes a session, whole or not at all, and stays until it has.
+TEST_F(SessionCrash, AKillWhileAnOldJournalBecomesASessionLosesNothing) {
+  const History history = two_branches();
+  const std::string text = journal_text(history);
+  folder.write("session.arris", text);  // what is in it decides, not its name
+  Random random(::getpid());
+  std::size_t in_the_middle = 0;
+  for (int k = 0; k < kills(); ++k) {
+    const Acknowledged last = work_and_kill(random.bits() % 80000, "import");
+    ASSERT_NE(last.rows, 0u) << "it began before it was killed";
+    EXPECT_EQ(folder.read("session.arris"), text);
+    const std::string made = path + "." + std::to_string(last.rows);
+    in_the_middle += last.head == 1;
+    ASSERT_TRUE(last.head == 1 || std::filesystem::exists(made));
+    if (std::filesystem::exists(made)) expect_same(value_of(replay(made)).history, history);
+  }
+  EXPECT_GT(in_the_middle, 0u);
 }
 
 }  // namespace

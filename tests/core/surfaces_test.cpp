@@ -265,7 +265,7 @@ TEST(SurfaceFit, ABlendAlongACurveHasOneRadius) {
     EXPECT_EQ(blend->surface.type, SurfaceType::blend);
     EXPECT_EQ(blend->surface.side, side);
     EXPECT_NEAR(blend->surface.tube, 4.0, 0.15);
-    EXPECT_EQ(size_text(blend->surface).substr(0, 2), "r ");
+    EXPECT_EQ(size_text(blend->surface, LengthUnit::unknown).substr(0, 2), "r ");
   }
   // A saddle is none.
   EXPECT_FALSE(fit_blend(samples_of(

@@ -354,6 +354,10 @@ void ColourMapPanel::set_fields(const QStringList& names, const QStringList& too
   p_->show();
 }
 
+void ColourMapPanel::set_field_names(const QStringList& names) {
+  for (int i = 0; i < names.size(); ++i) p_->field->setItemText(i, names[i]);
+}
+
 void ColourMapPanel::set_field_available(int field, bool available, const QString& reason) {
   auto* items = qobject_cast<QStandardItemModel*>(p_->field->model());
   QStandardItem* item = items ? items->item(field) : nullptr;

@@ -27,6 +27,8 @@ class ColourMapPanel : public QWidget {
 
   /// Names of the fields, in the order of ColourMapState::field ("Kabs (1/mm²)", ..., "Shape").
   void set_fields(const QStringList& names, const QStringList& tooltips);
+  /// Other names for the same fields.
+  void set_field_names(const QStringList& names);
   /// A field that cannot be shown now is grey in the list; `reason` is its tooltip then.
   void set_field_available(int field, bool available, const QString& reason);
   void set_state(const ColourMapState& state);

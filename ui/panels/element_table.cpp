@@ -77,6 +77,12 @@ class Model : public QAbstractTableModel {
     endResetModel();
   }
 
+  void set_headers(const QStringList& headers) {
+    if (headers_ == headers) return;
+    headers_ = headers;
+    emit headerDataChanged(Qt::Horizontal, 0, static_cast<int>(headers_.size()) - 1);
+  }
+
   /// Everything is read afresh. A filter that hides thousands of scattered rows takes a hundredth
   /// of the time that telling the view about each of them would.
   void reset() {
@@ -390,6 +396,8 @@ ElementTable::ElementTable(const QString& what, const QStringList& headers,
 }
 
 ElementTable::~ElementTable() = default;
+
+void ElementTable::set_headers(const QStringList& headers) { p_->model->set_headers(headers); }
 
 void ElementTable::set_rows(std::vector<ElementRow> rows) {
   const int down = p_->view->verticalScrollBar()->value();

@@ -28,7 +28,8 @@ class ElementTable : public QWidget {
                QWidget* parent = nullptr);
   ~ElementTable() override;
 
-  void set_rows(std::vector<ElementRow> rows);  ///< Keeps sorting, selection and scroll position.
+  void set_headers(const QStringList& headers);  ///< As many as before.
+  void set_rows(std::vector<ElementRow> rows);   ///< Keeps sorting, selection and scroll position.
   void set_selected(const std::unordered_set<std::uint32_t>& ids);  ///< Scrolls to the first.
   std::unordered_set<std::uint32_t> selected() const;
   void set_empty_text(const QString& text);  ///< Shown instead of an empty table.

@@ -28,10 +28,9 @@ SectionBar::SectionBar(QWidget* parent) : QToolBar(parent) {
   slider_->setToolTip(tr("Moves the section through the part; arrow keys move it finely."));
   slider_->setAccessibleName(tr("Position of the section"));
   box_ = new NumberBox(this);
-  box_->setSuffix(QStringLiteral(" mm"));
   box_->setFixedWidth(110);
   box_->setToolTip(tr("Position of the section along its direction."));
-  box_->setAccessibleName(tr("Position of the section in mm"));
+  box_->setAccessibleName(tr("Position of the section as a number"));
   auto* flip = new QPushButton(tr("Flip"), this);
   flip->setToolTip(tr("Cuts away the other side (Shift+F)"));
   auto* off = new QPushButton(tr("Off"), this);
@@ -63,6 +62,8 @@ void SectionBar::show_plane(const QString& name, double low, double high, double
   slider_->setValue(static_cast<int>(std::lround((position - low) / (high - low) * slider_steps)));
   showing_ = false;
 }
+
+void SectionBar::set_unit_suffix(const QString& suffix) { box_->setSuffix(suffix); }
 
 double SectionBar::position() const { return box_->value(); }
 

@@ -9,7 +9,7 @@ namespace arris::ui {
 
 class NumberBox;
 
-/// Moves the section plane: a slider over the part and the position in mm.
+/// Moves the section plane: a slider over the part and the position as a length.
 class SectionBar : public QToolBar {
   Q_OBJECT
  public:
@@ -18,6 +18,8 @@ class SectionBar : public QToolBar {
   /// `name`: "X", "view direction"; positions run from `low` to `high`, which is larger.
   void show_plane(const QString& name, double low, double high, double position);
   double position() const;
+  /// " mm", or empty.
+  void set_unit_suffix(const QString& suffix);
 
  signals:
   void moved(double position);

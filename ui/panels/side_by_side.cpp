@@ -30,6 +30,7 @@ SideBySide::SideBySide(QWidget* view, const QColor& marked, QWidget* parent) : Q
   splitter_->setChildrenCollapsible(false);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(0);
   all->addWidget(splitter_);
 
   QPixmap chip(22, 10);
@@ -110,6 +111,10 @@ SideBySide::Header SideBySide::make_header() {
   marks->addWidget(header.only, 1);
   column->addLayout(marks);
   return header;
+}
+
+void SideBySide::set_strip(QWidget* strip) {
+  static_cast<QVBoxLayout*>(layout())->insertWidget(0, strip);
 }
 
 void SideBySide::set_other(QWidget* other) {

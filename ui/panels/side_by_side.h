@@ -29,6 +29,9 @@ class SideBySide : public QWidget {
   /// to its owner.
   void set_other(QWidget* other);
 
+  /// A bar over both views.
+  void set_strip(QWidget* strip);
+
   struct Version {
     std::uint32_t sequence = 0;
     QString text;

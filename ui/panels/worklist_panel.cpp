@@ -51,7 +51,6 @@ WorklistPanel::WorklistPanel(QWidget* parent) : QWidget(parent) {
   under_ = new NumberBox(this);
   under_->setDecimals(3);
   under_->setRange(0.0, 1e6);
-  under_->setSuffix(tr(" mm"));
   under_->setAccessibleName(tr("Dismiss all under"));
   auto* steps = new QHBoxLayout;
   steps->setSpacing(4);
@@ -188,7 +187,8 @@ void WorklistPanel::set_current(int row, int choice) {
   setting_ = false;
 }
 
-void WorklistPanel::set_small_extent(double extent) {
+void WorklistPanel::set_small_extent(double extent, const QString& suffix) {
+  under_->setSuffix(suffix);
   if (!under_->hasFocus()) under_->setValue(extent);
 }
 

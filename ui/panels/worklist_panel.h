@@ -41,8 +41,8 @@ class WorklistPanel : public QWidget {
   void set_current(int row, int choice = 0);
   int current_row() const { return row_; }
   int current_choice() const { return choice_; }
-  /// Proposed for dismissing all that is smaller; mm.
-  void set_small_extent(double extent);
+  /// Proposed for dismissing all that is smaller, a length; and what follows it: " mm", or nothing.
+  void set_small_extent(double extent, const QString& suffix);
   /// Whether there is anything to step through, and whether the current row can be accepted.
   void set_enabled_buttons(bool step, bool accept, bool dismiss);
 
@@ -52,7 +52,7 @@ class WorklistPanel : public QWidget {
   void previous_wanted();
   void accept_wanted();
   void dismiss_wanted();
-  void dismiss_under_wanted(double extent);  ///< mm
+  void dismiss_under_wanted(double extent);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -59,12 +59,12 @@ bool has_undefined(const ViewField& field) {
 
 }  // namespace
 
-QStringList measured_lines(const Mesh& mesh, const Pick& from, const Pick& to) {
+QStringList measured_lines(const Mesh& mesh, LengthUnit unit, const Pick& from, const Pick& to) {
   const Measurement found = measure(mesh, {from.point, from.face}, {to.point, to.face});
   const auto length = [&](double value) { return length_text(mesh, value); };
   const Point& d = found.difference;
   QStringList lines{
-      length(found.distance) + " mm",
+      QString::fromStdString(with_unit(length(found.distance).toStdString(), unit)),
       QString("dx %1   dy %2   dz %3").arg(length(d.x()), length(d.y()), length(d.z()))};
   if (found.angle)
     lines << QCoreApplication::translate("arris::ui::MeshView", "angle between faces %1°")
@@ -91,6 +91,7 @@ Overlay MeshView::Impl::overlay(const ViewCamera& seen, double units) const {
   result.scale_bar = mesh != nullptr;
   result.orientation_marker = mesh != nullptr;
   result.units_per_pixel = units;
+  result.unit = unit;
   result.axes = seen.axes();
   return result;
 }
@@ -116,7 +117,7 @@ ToolOverlay MeshView::Impl::tools(const ViewCamera& seen, QSizeF size) const {
   if (measured.size() == 1 && measuring) result.measured.push_back(at(measuring->point));
   if (result.measured.size() == 2)
     result.measured_text =
-        measured_lines(*mesh, measured[0], measured.size() == 2 ? measured[1] : *measuring);
+        measured_lines(*mesh, unit, measured[0], measured.size() == 2 ? measured[1] : *measuring);
   if (brush_at && tool == Tool::brush && drag != Drag::orbit) {
     const Point normal = mean_normal_about(*mesh, brush_at->face);
     const Point right = normal.unitOrthogonal();
@@ -410,6 +411,12 @@ void MeshView::set_flat_shading(bool flat) {
 void MeshView::set_scalar_bar_visible(bool visible) {
   impl_->scalar_bar_visible = visible;
   keep_clear();
+  update();
+}
+
+void MeshView::set_length_unit(LengthUnit unit) {
+  if (impl_->unit == unit) return;
+  impl_->unit = unit;
   update();
 }
 

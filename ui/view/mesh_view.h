@@ -42,7 +42,7 @@ struct ViewField {
   /// Vertices and faces colour the surface; edges are drawn coloured over a plain one (figure 24b).
   Element element = Element::vertex;
   ColourScale scale;
-  bool read_as_radius = false;  ///< The scalar bar shows a radius in mm beside each value of Kabs.
+  bool read_as_radius = false;  ///< The scalar bar shows a radius beside each value of Kabs.
   /// Where set, values are class numbers 0, 1, ...: `class_names[k]` in `class_colours[k]` as a
   /// legend.
   QStringList class_names;
@@ -135,6 +135,8 @@ class MeshView : public QOpenGLWidget {
   void set_hidden_faces(std::vector<bool> hidden);
   /// The same for the faces of the reference, with which they go.
   void set_hidden_reference_faces(std::vector<bool> hidden);
+  /// What lengths of the mesh are told in. Stays when the mesh changes.
+  void set_length_unit(LengthUnit unit);
   /// Cuts the part open; what is cut away is not picked. Stays when the mesh changes.
   void set_section(const std::optional<Section>& section);
   const std::optional<Section>& section() const;

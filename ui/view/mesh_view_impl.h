@@ -50,7 +50,7 @@ std::shared_ptr<const Value> if_ready(const Later<Value>& later) {
 inline QSizeF logical_size(const QWidget& view) { return QSizeF(view.size().expandedTo({1, 1})); }
 
 /// The numbers of a measurement, line by line, the distance first.
-QStringList measured_lines(const Mesh& mesh, const Pick& from, const Pick& to);
+QStringList measured_lines(const Mesh& mesh, LengthUnit unit, const Pick& from, const Pick& to);
 
 /// What MeshView keeps: what is shown (mesh_view.cpp) and what the user is doing
 /// (mesh_view_input.cpp).
@@ -71,6 +71,7 @@ struct MeshView::Impl {
   enum class Drag { none, orbit, pan, zoom, band, paint, line };
 
   MeshPtr mesh;
+  LengthUnit unit = LengthUnit::unknown;
   MeshPtr reference;
   std::vector<ViewLine> lines;        // as given
   std::vector<ViewLine> shown_lines;  // without the runs between hidden faces

@@ -53,9 +53,9 @@ QString MeshView::Impl::hint_shown() const {
           "Select by rectangle: drag over lines  ·  Ctrl adds or removes  ·  Esc ends");
     case Tool::brush:
       return translated(
-                 "Brush, radius %1 mm: paint on the part  ·  [ and ] or Ctrl + wheel change "
+                 "Brush, radius %1: paint on the part  ·  [ and ] or Ctrl + wheel change "
                  "the radius  ·  Esc ends")
-          .arg(QString::fromStdString(number_text(brush_radius, 3)));
+          .arg(QString::fromStdString(with_unit(number_text(brush_radius, 3), unit)));
     case Tool::path:
       return translated(
           "Path: click points on the part  ·  double click or Enter completes it  ·  "
@@ -352,7 +352,7 @@ void MeshView::measure_to(const Pick& found) {
   update();
   if (impl_->measured.size() < 2) return;
   const QStringList lines =
-      measured_lines(*impl_->mesh, impl_->measured.front(), impl_->measured.back());
+      measured_lines(*impl_->mesh, impl_->unit, impl_->measured.front(), impl_->measured.back());
   emit measured(lines.join("   "));
 }
 

@@ -138,7 +138,10 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
     values_width = std::max(values_width, text_width(look.font, tick.value));
     radii_width = std::max(radii_width, text_width(look.font, tick.radius));
   }
-  const QString radius_title = translated("r (mm)");
+  const QString radius_title =
+      overlay.unit == LengthUnit::unknown
+          ? translated("r")
+          : translated("r (%1)").arg(QString::fromStdString(unit_text(overlay.unit)));
   const QString undefined_text = translated("undefined");
   if (field.read_as_radius) {
     radii_width = std::max(radii_width, text_width(look.font, radius_title)) + 16.0;
@@ -333,7 +336,10 @@ void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Ove
   const double length = round_length(most * overlay.units_per_pixel);
   const double pixels = length / overlay.units_per_pixel;
   if (!(pixels > 8.0) || pixels > most * 1.0001) return;
-  const QString text = short_number(length) + QStringLiteral(" mm");
+  const QString number = short_number(length);
+  const QString text = overlay.unit == LengthUnit::unknown
+                           ? number + translated(" units")
+                           : number + " " + QString::fromStdString(unit_text(overlay.unit));
   const double line = QFontMetricsF(look.font).height();
   const double inner = std::max(pixels, text_width(look.font, text));
   const QRectF panel(size.width() - margin - inner - 2 * padding,

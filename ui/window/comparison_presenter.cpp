@@ -9,6 +9,7 @@
 #include "core/base/number_text.h"
 #include "ui/window/actions.h"
 #include "ui/window/shown_elements.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -16,26 +17,27 @@ namespace {
 
 constexpr double side_share = 0.6;  // of the magnification before, for each of two views
 
-QString mm(double length) {
-  return QString::fromStdString(arris::number_text(length, 4)) + QStringLiteral(" mm");
+QString length_text(double length, LengthUnit unit) {
+  return QString::fromStdString(arris::number_text(length, 4)) + unit_in_sentence(unit);
 }
 
 /// "279 lines, 2052 mm; 96 partitions".
-QString holds_text(const Document& document) {
+QString holds_text(const Document& document, LengthUnit unit) {
   double length = 0.0;
   for (const LinePtr& line : document.lines.lines) length += line->length;
   return ComparisonPresenter::tr("%1 lines, %2 · %3 partitions")
       .arg(document.lines.lines.size())
-      .arg(mm(length))
+      .arg(length_text(length, unit))
       .arg(document.partitions.partitions.size());
 }
 
-QString only_text(const Departure& only) {
+QString only_text(const Departure& only, LengthUnit unit) {
   if (only.stretches.empty()) return ComparisonPresenter::tr("nothing that the other has not");
   if (only.soft_length == 0.0)
-    return ComparisonPresenter::tr("only here: %1 of lines").arg(mm(only.sharp_length));
+    return ComparisonPresenter::tr("only here: %1 of lines")
+        .arg(length_text(only.sharp_length, unit));
   return ComparisonPresenter::tr("only here: %1 of lines, %2 of borders")
-      .arg(mm(only.sharp_length), mm(only.soft_length));
+      .arg(length_text(only.sharp_length, unit), length_text(only.soft_length, unit));
 }
 
 }  // namespace
@@ -252,8 +254,9 @@ void ComparisonPresenter::compare_anew() {
         if (comparison)
           take(mesh, *comparison);
         else if (!comparison.error().cancelled)
-          side_by_side_->set_figures(0, holds_text(version_),
-                                     QString::fromStdString(comparison.error().message));
+          side_by_side_->set_figures(
+              0, holds_text(version_, length_unit_of(session_->shown().document)),
+              QString::fromStdString(comparison.error().message));
         if (std::exchange(outdated_, false)) compare_anew();
       });
 }
@@ -334,15 +337,19 @@ void ComparisonPresenter::show_visibility() {
 void ComparisonPresenter::show_headers() {
   if (!other_) return;
   const Document& now = session_->shown().document;
-  side_by_side_->set_figures(0, holds_text(version_),
-                             comparison_ ? only_text(comparison_->only[0]) : tr("comparing…"));
-  QString holds = holds_text(now);
+  // Of one scan, even where the version is from before the unit was told.
+  const LengthUnit unit = length_unit_of(now);
+  other_->set_length_unit(unit);
+  side_by_side_->set_figures(
+      0, holds_text(version_, unit),
+      comparison_ ? only_text(comparison_->only[0], unit) : tr("comparing…"));
+  QString holds = holds_text(now, unit);
   if (comparison_ && comparison_->divided_otherwise)
     holds +=
         tr(" · %1 % differs")
             .arg(QString::fromStdString(fixed_text(100.0 * *comparison_->divided_otherwise, 1)));
-  side_by_side_->set_figures(1, holds,
-                             comparison_ ? only_text(comparison_->only[1]) : tr("comparing…"));
+  side_by_side_->set_figures(
+      1, holds, comparison_ ? only_text(comparison_->only[1], unit) : tr("comparing…"));
   side_by_side_->set_now(now_text());
 
   const History& history = session_->history();
@@ -404,7 +411,9 @@ QImage ComparisonPresenter::picture(const PictureOptions& options) {
                           : QColor(236, 238, 242);
   const std::array<MeshView*, 2> views{other_, view_};
   const std::array<QString, 2> titles{row_text(row_), now_text()};
-  const std::array<QString, 2> holds{holds_text(version_), holds_text(session_->shown().document)};
+  const Document& now = session_->shown().document;
+  const LengthUnit unit = length_unit_of(now);
+  const std::array<QString, 2> holds{holds_text(version_, unit), holds_text(now, unit)};
   for (std::size_t side = 0; side < 2; ++side) {
     half.scalar_bar = options.scalar_bar && side == 1;
     const QImage image = views[side]->picture(half);
@@ -430,7 +439,7 @@ QImage ComparisonPresenter::picture(const PictureOptions& options) {
       constexpr double key = 22.0;
       painter.fillRect(QRectF(8, 47, key, 10), marked_colour());
       painter.translate(key + 6.0, 0.0);
-      line(view_->font(), 42, only_text(comparison_->only[side]));
+      line(view_->font(), 42, only_text(comparison_->only[side], unit));
     }
     painter.restore();
   }

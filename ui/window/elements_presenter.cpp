@@ -6,6 +6,7 @@
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatment.h"
 #include "ui/window/shown_elements.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -36,10 +37,35 @@ QString ElementsPresenter::origin_text(const Line& line) {
   return line.locked ? origin + tr(", locked") : origin;
 }
 
+QStringList ElementsPresenter::lines_headers(LengthUnit unit) {
+  return {tr("Line"),    tr("Type"),   tr("Length") + unit_suffix(unit),
+          tr("Angle °"), tr("Origin"), tr("Edges")};
+}
+
+QStringList ElementsPresenter::partitions_headers(LengthUnit unit) {
+  const QString length = unit_suffix(unit);
+  return {tr("Partition"),
+          tr("Surface"),
+          tr("Size"),
+          tr("Deviation") + length,
+          tr("Largest") + length,
+          tr("Within %"),
+          tr("Sides"),
+          tr("Area") + unit_suffix(unit, 2),
+          tr("Faces"),
+          tr("Mean"),
+          tr("Interval")};
+}
+
+QStringList ElementsPresenter::boundaries_headers(LengthUnit unit) {
+  const QString length = unit_suffix(unit);
+  return {tr("No."),  tr("Type"), tr("Length") + length, tr("Angle °"), tr("Radius") + length,
+          tr("Left"), tr("Right")};
+}
+
 ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
   auto* table = new ElementTable(
-      tr("lines"),
-      {tr("Line"), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Origin"), tr("Edges")},
+      tr("lines"), lines_headers(LengthUnit::unknown),
       {tr("Id of the line; it keeps it while thresholds move"),
        tr("Convex or concave; closed lines have no ends"), tr("Length along the line"),
        tr("Mean angle across it, by what lines are found by: the normal jump, or IHe (walk); "
@@ -55,9 +81,7 @@ ElementTable* ElementsPresenter::make_lines_table(QWidget* parent) {
 
 ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
   auto* table = new ElementTable(
-      tr("partitions"),
-      {tr("Partition"), tr("Surface"), tr("Size"), tr("Deviation mm"), tr("Largest mm"),
-       tr("Within %"), tr("Sides"), tr("Area mm²"), tr("Faces"), tr("Mean"), tr("Interval")},
+      tr("partitions"), partitions_headers(LengthUnit::unknown),
       {tr("Id of the partition; it keeps it while thresholds move"),
        tr("The surface that explains it: plane, sphere, cylinder, cone, torus, blend (of one "
           "radius along a curve), or free: none of them"),
@@ -77,9 +101,7 @@ ElementTable* ElementsPresenter::make_partitions_table(QWidget* parent) {
 
 ElementTable* ElementsPresenter::make_boundaries_table(QWidget* parent) {
   auto* table = new ElementTable(
-      tr("boundaries"),
-      {tr("No."), tr("Type"), tr("Length mm"), tr("Angle °"), tr("Radius mm"), tr("Left"),
-       tr("Right")},
+      tr("boundaries"), boundaries_headers(LengthUnit::unknown),
       {tr("Number"),
        tr("C0: sharp line. Gn: between two partitions; tangent where their surfaces touch, as at "
           "both rims of a fillet. Undefined: unassigned faces beyond. Border: the scan ends"),
@@ -174,6 +196,10 @@ void ElementsPresenter::refresh() {
 
   // Tables of a part with thousands of rows are filled only for the state that stays.
   if (!session_->is_previewing()) {
+    const LengthUnit unit = length_unit_of(document);
+    tables_.lines->set_headers(lines_headers(unit));
+    tables_.partitions->set_headers(partitions_headers(unit));
+    tables_.boundaries->set_headers(boundaries_headers(unit));
     std::vector<ElementRow> rows;
     for (const LinePtr& line : document.lines.lines) {
       const QString type = (line->convex() ? tr("convex") : tr("concave")) +
@@ -227,7 +253,7 @@ void ElementsPresenter::fill_partitions_table() {
       const PartitionSurface& fit = known->second.surface;
       const std::string_view name = name_of(fit.surface.type);
       type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-      size = QString::fromStdString(size_text(fit.surface));
+      size = QString::fromStdString(size_text(fit.surface, length_unit_of(document)));
       if (fit.surface.type != SurfaceType::free) {
         mean = shown(fit.mean_deviation);
         most = shown(fit.max_deviation);

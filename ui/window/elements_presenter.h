@@ -75,6 +75,9 @@ class ElementsPresenter : public QObject {
 
  private:
   static QString origin_text(const Line& line);
+  static QStringList lines_headers(LengthUnit unit);
+  static QStringList partitions_headers(LengthUnit unit);
+  static QStringList boundaries_headers(LengthUnit unit);
   void refresh();
   void show_selection();
   void clicked(const std::optional<Pick>& pick, bool toggle);

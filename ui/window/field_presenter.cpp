@@ -36,7 +36,7 @@ struct FieldOfPart {
 
 /// Any but the normal jump. `zones`: needed by Deviation alone.
 FieldOfPart field_of(Field field, const Mesh& mesh, const Curvatures& curvatures,
-                     const ErrorZones* zones) {
+                     const ErrorZones* zones, LengthUnit unit) {
   FieldOfPart part;
   std::vector<double> values;
   if (field == Field::deviation) {
@@ -45,10 +45,11 @@ FieldOfPart field_of(Field field, const Mesh& mesh, const Curvatures& curvatures
     for (double& value : values) value *= 100.0;
     const FaceOccupancy& worst = occupancy.worst;
     if (worst.worst != no_id)
-      part.mark = ViewMark{mesh.point(worst.worst),
-                           FieldPresenter::tr("worst: %1 mm, %2 % of its zone")
-                               .arg(QString::fromStdString(number_text(worst.distance, 3)),
-                                    QString::fromStdString(fixed_text(100.0 * worst.share, 0)))};
+      part.mark =
+          ViewMark{mesh.point(worst.worst),
+                   FieldPresenter::tr("worst: %1, %2 % of its zone")
+                       .arg(QString::fromStdString(with_unit(number_text(worst.distance, 3), unit)),
+                            QString::fromStdString(fixed_text(100.0 * worst.share, 0)))};
   } else if (field == Field::face_quality) {
     values = face_qualities(mesh);
   } else {
@@ -71,9 +72,10 @@ QString FieldPresenter::why_not_available() {
   return tr("Simplify or swap edges first: the scan's vertices have no error zones yet.");
 }
 
-QString title_of(Field field) {
+QString title_of(Field field, LengthUnit unit) {
   const FieldInfo& info = info_of(field);
-  return info.unit.empty() ? text(info.name) : text(info.name) + " (" + text(info.unit) + ")";
+  const std::string in = unit_of(field, unit);
+  return in.empty() ? text(info.name) : text(info.name) + " (" + QString::fromStdString(in) + ")";
 }
 
 FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramPanel* histogram,
@@ -104,6 +106,18 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
 
 void FieldPresenter::show(const Document& document) {
   const CurvaturesPtr& curvatures = document.shown_curvatures();
+  const LengthUnit unit = length_unit_of(document);
+  if (unit != unit_) {
+    unit_ = unit;
+    view_->set_length_unit(unit);
+    QStringList names;
+    for (const FieldInfo& info : field_table()) names << title_of(info.field, unit);
+    panel_->set_field_names(names);
+    if (mesh_ == document.mesh && mesh_) {
+      load();  // a mark may tell a length
+      refresh();
+    }
+  }
   if (curvatures == curvatures_ && document.mesh == mesh_ && document.zones == zones_) return;
   mesh_ = document.mesh;
   curvatures_ = curvatures;
@@ -224,7 +238,7 @@ void FieldPresenter::load() {
         refresh();
       });
   } else if (curvatures_) {
-    const FieldOfPart part = field_of(field_, *mesh_, *curvatures_, zones_.get());
+    const FieldOfPart part = field_of(field_, *mesh_, *curvatures_, zones_.get(), unit_);
     mark_ = part.mark;
     take_values(part.values);
   }
@@ -239,7 +253,7 @@ void FieldPresenter::take_values(std::shared_ptr<const std::vector<double>> valu
 ViewField FieldPresenter::view_field(std::shared_ptr<const std::vector<double>> values) const {
   const FieldInfo& info = info_of(field_);
   ViewField shown;
-  shown.title = title_of(field_);
+  shown.title = title_of(field_, unit_);
   shown.values = std::move(values);
   shown.element = info.element;
   shown.scale = scale();
@@ -263,7 +277,8 @@ std::optional<ViewField> FieldPresenter::of(const Document& document) {
     return std::nullopt;
   }
   return view_field(
-      field_of(field_, *document.mesh, *document.shown_curvatures(), document.zones.get()).values);
+      field_of(field_, *document.mesh, *document.shown_curvatures(), document.zones.get(), unit_)
+          .values);
 }
 
 void FieldPresenter::refresh() {

@@ -68,6 +68,7 @@ class FieldPresenter : public QObject {
   LatestWork* work_;
   LatestWork* other_work_;                          // for of()
   std::array<ColourMapState, field_count> states_;  // of each field
+  LengthUnit unit_ = LengthUnit::unknown;
   MeshPtr mesh_;
   CurvaturesPtr curvatures_;
   ErrorZonesPtr zones_;
@@ -78,7 +79,7 @@ class FieldPresenter : public QObject {
   Distribution distribution_;
 };
 
-/// "Kabs (1/mm²)".
-QString title_of(Field field);
+/// "Kabs (1/mm²)"; "Kabs" where the unit of lengths is unknown, or does not matter.
+QString title_of(Field field, LengthUnit unit = LengthUnit::unknown);
 
 }  // namespace arris::ui

@@ -9,6 +9,7 @@
 #include "core/guidance/explain_jump.h"
 #include "core/mesh/face_quality.h"
 #include "core/simplification/occupancy.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -26,10 +27,11 @@ QString hover_text(const Document& document, const Pick& pick) {
   if (document.empty() || pick.vertex >= document.mesh->vertex_count()) return {};
   const Curvatures& c = *document.shown_curvatures();
   const VertexId v = pick.vertex;
+  const QString suffix = unit_suffix(document);
   QString text = tr("vertex %1   K %2   H %3   Kabs %4")
                      .arg(v)
                      .arg(number(c.k[v]), number(c.h[v]), number(c.kabs[v]));
-  if (c.kabs[v] > 0.0) text += tr(" (r %1 mm)").arg(number(cylinder_radius(c.kabs[v]), 3));
+  if (c.kabs[v] > 0.0) text += tr(" (r %1)").arg(number(cylinder_radius(c.kabs[v]), 3) + suffix);
   text += tr("   IKabs %1").arg(number(c.ikabs[v]));
   if (pick.edge < document.mesh->edge_count()) {
     const double angle = std::abs(c.beta[pick.edge]) * 180.0 / std::numbers::pi;
@@ -42,8 +44,8 @@ QString hover_text(const Document& document, const Pick& pick) {
     text += tr("   quality %1").arg(number(face_quality(*document.mesh, pick.face), 2));
     if (document.zones) {
       const FaceOccupancy use = occupancy_of_face(*document.mesh, *document.zones, pick.face);
-      text +=
-          tr("   deviation %1 mm, %2 %").arg(number(use.distance, 2), number(100.0 * use.share, 2));
+      text += tr("   deviation %1, %2 %")
+                  .arg(number(use.distance, 2) + suffix, number(100.0 * use.share, 2));
     }
   }
   if (pick.line != 0 && document.lines.find(pick.line)) text += tr("   line %1").arg(pick.line);

@@ -26,6 +26,8 @@
 #include "ui/panels/history_panel.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
+#include "ui/panels/unit_bar.h"
+#include "ui/window/about_dialog.h"
 #include "ui/window/hover_text.h"
 #include "ui/window/tab_order.h"
 
@@ -34,6 +36,7 @@ namespace arris::ui {
 namespace {
 
 constexpr int progress_delay = 300;  // ms: shorter work shows no progress
+constexpr int view_rest = 2000;      // ms without a change until a view is kept
 
 }  // namespace
 
@@ -81,6 +84,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(view_presenter_, &ViewPresenter::message, this, tell);
   thresholds_ = new ThresholdPresenter(session_, fields_, histogram_, this);
   steps_ = new StepsPresenter(session_, steps_panel_, this);
+  auto* unit_bar = new UnitBar(side_by_side_);
+  side_by_side_->set_strip(unit_bar);
+  units_ = new UnitPresenter(session_, unit_bar, this);
   make_guidance();
   make_status_bar();
   make_actions();
@@ -151,6 +157,19 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     for (QAction* a : field_actions_->actions())
       a->setChecked(a->data().toInt() == static_cast<int>(fields_->field()));
   });
+
+  // The view of after a crash is the last one that rested for a moment.
+  view_rest_ = new QTimer(this);
+  view_rest_->setSingleShot(true);
+  connect(view_rest_, &QTimer::timeout, this, [this] {
+    if (!session_->current().document.empty()) session_->keep_view(saved_view(view_keepers()));
+  });
+  const auto view_changed = [this] { view_rest_->start(view_rest); };
+  connect(view_, &MeshView::look_changed, this, view_changed);
+  connect(fields_, &FieldPresenter::changed, this, view_changed);
+  connect(elements_, &ElementsPresenter::visibility_changed, this, view_changed);
+  connect(elements_, &ElementsPresenter::partitions_shown_changed, this, view_changed);
+  for (QAction* toggle : toggles_) connect(toggle, &QAction::toggled, this, view_changed);
 
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());
@@ -296,15 +315,7 @@ void MainWindow::show_partitions(bool shown) {
   (shown ? show_partitions_ : show_field_)->setChecked(true);
 }
 
-void MainWindow::show_about() {
-  QMessageBox::about(this, tr("About Arris"),
-                     tr("<h3>Arris %1</h3><p>Segments scanned moulds: sharp lines, curvature and "
-                        "partitions, after "
-                        "Lesage, Léon and Véron, “Discrete curvature approximations and "
-                        "segmentation of polyhedral "
-                        "surfaces”.</p><p>BSD 3-Clause licence.</p>")
-                         .arg(QApplication::applicationVersion()));
-}
+void MainWindow::show_about() { AboutDialog(*session_, this).exec(); }
 
 void MainWindow::refresh_history() {
   std::vector<HistoryRow> rows;
@@ -380,6 +391,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
+  session_->wait_until_saved();
   QSettings settings;
   settings.setValue("window/geometry", saveGeometry());
   settings.setValue("window/state", saveState());

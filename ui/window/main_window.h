@@ -17,6 +17,7 @@
 #include "ui/window/threshold_presenter.h"
 #include "ui/window/tour_presenter.h"
 #include "ui/window/treatments_presenter.h"
+#include "ui/window/unit_presenter.h"
 #include "ui/window/view_presenter.h"
 #include "ui/window/worklist_presenter.h"
 
@@ -92,11 +93,12 @@ class MainWindow : public QMainWindow {
   void choose_file();
   void choose_picture();
   void export_results();
-  /// Saves the session where it is; asks where it is to be only where it is nowhere. False: it was
-  /// not saved.
+  /// Saves the session where it is; asks where it is to be only where it is nowhere. It goes on
+  /// meanwhile. False: nobody said where.
   bool save();
   bool save_as();
-  bool save_to(const QString& path);
+  void save_to(const QString& path);
+  void tell_saved(const QString& path, const Result<void>& written);
   SessionExtras extras_to_save();
   ViewKeepers view_keepers();
   /// True where the open session may go: nothing unsaved, or the user said so.
@@ -153,6 +155,7 @@ class MainWindow : public QMainWindow {
   CorrectionsPresenter* corrections_;
   StabilityPresenter* stability_;
   TourPresenter* tour_;
+  UnitPresenter* units_;
 
   QMenu* recent_menu_;
   QMenu* panels_menu_;
@@ -187,6 +190,7 @@ class MainWindow : public QMainWindow {
   QProgressBar* progress_;
   QPushButton* cancel_;
   QTimer* progress_delay_;
+  QTimer* view_rest_;  // until the view is kept for after a crash
   PictureOptions picture_options_;
 };
 

@@ -123,6 +123,7 @@ void MainWindow::make_part_menu() {
         {Operation{"delete_faces", {{"components_under", std::max<std::size_t>(faces / 100, 2)}}}});
   });
   part->addSeparator();
+  units_->add_actions(part->addMenu(tr("&Unit of lengths")));
   report_ = action(part, tr("Load r&eport…"), {}, tr("What the file held and what was mended"));
   connect(report_, &QAction::triggered, this, &MainWindow::show_load_report);
 }
@@ -252,7 +253,7 @@ void MainWindow::make_help_menu() {
             if (!session_->current().document.empty()) stack_->setCurrentWidget(side_by_side_);
             tour_->take();
           });
-  connect(action(help, tr("&About Arris"), {}, tr("What Arris is")), &QAction::triggered, this,
+  connect(action(help, tr("&About Arris"), {}, tr("What Arris is, what it is made of and where its log lies; a report to copy")), &QAction::triggered, this,
           &MainWindow::show_about);
 }
 

@@ -89,7 +89,9 @@ void MainWindow::take_opened() {
   else
     view_->look_from(MeshView::StandardView::isometric);
   show_partitions(false);
-  restore_view(view_keepers(), session_->extras().view);
+  // A session that nobody looked at yet, as from the command line, shows what was found.
+  if (!restore_view(view_keepers(), session_->extras().view) && document.find_partitions)
+    show_partitions(true);
   view_->setFocus();
   refresh_title();
   remember_recent(session_->file().isEmpty() ? QString::fromStdString(document.scan_path)
@@ -151,12 +153,16 @@ bool MainWindow::may_leave_session() {
   box.setDefaultButton(save_it);
   box.exec();
   if (box.clickedButton() == discard) return true;
-  return box.clickedButton() == save_it && save();
+  if (box.clickedButton() != save_it || !save()) return false;
+  session_->wait_until_saved();
+  return !session_->has_unsaved_edits();
 }
 
 bool MainWindow::save() {
   const bool has_file = !session_->file().isEmpty() && !session_->is_read_only();
-  return has_file ? save_to(session_->file()) : save_as();
+  if (!has_file) return save_as();
+  save_to(session_->file());
+  return true;
 }
 
 bool MainWindow::save_as() {
@@ -174,18 +180,24 @@ bool MainWindow::save_as() {
   }
   const QString path =
       choose_path(this, tr("Save session"), suggested, "sessions", tr("Arris session (*.arris)"));
-  return !path.isEmpty() && save_to(path);
+  if (path.isEmpty()) return false;
+  save_to(path);
+  return true;
 }
 
-bool MainWindow::save_to(const QString& path) {
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  const Result<void> written = session_->save(path, extras_to_save());
-  QApplication::restoreOverrideCursor();
+void MainWindow::save_to(const QString& path) {
+  statusBar()->showMessage(tr("Saving %1 …").arg(path));
+  session_->save(path, extras_to_save(),
+                 [this, path](const Result<void>& written) { tell_saved(path, written); });
+}
+
+void MainWindow::tell_saved(const QString& path, const Result<void>& written) {
   if (written) {
     statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
     remember_recent(path);
-    return true;
+    return;
   }
+  statusBar()->clearMessage();
   QMessageBox box(QMessageBox::Warning, "Arris", QString::fromStdString(written.error().message),
                   QMessageBox::NoButton, this);
   box.setInformativeText(
@@ -195,7 +207,7 @@ bool MainWindow::save_to(const QString& path) {
   box.addButton(QMessageBox::Cancel);
   box.setDefaultButton(elsewhere);
   box.exec();
-  return box.clickedButton() == elsewhere && save_as();
+  if (box.clickedButton() == elsewhere) save_as();
 }
 
 bool MainWindow::offer_recovery() {
@@ -236,7 +248,7 @@ void MainWindow::open_sample() {
     SampleMould mould = make_mould();
     const Result<MeshPtr> mesh = Mesh::create(std::move(mould.points), std::move(mould.triangles));
     if (!mesh) return tl::unexpected<Error>(mesh.error());
-    return write_ply(file, **mesh, {});
+    return write_ply(file, **mesh, {}, LengthUnit::millimetre);
   });
 }
 

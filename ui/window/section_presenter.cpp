@@ -9,6 +9,7 @@
 #include "ui/panels/section_bar.h"
 #include "ui/window/actions.h"
 #include "ui/window/saved_view.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -29,7 +30,10 @@ SectionPresenter::SectionPresenter(Session* session, MeshView* view, SectionBar*
   });
   connect(view_, &MeshView::tool_changed, this, &SectionPresenter::stop_picking);
   connect(session_, &Session::opened, this, [this] { choose(Direction::off); });
-  connect(session_, &Session::changed, this, [this] { refresh(); });
+  connect(session_, &Session::changed, this, [this] {
+    bar_->set_unit_suffix(unit_suffix(session_->shown().document));
+    refresh();
+  });
 }
 
 void SectionPresenter::add_actions(QMenu* menu) {
@@ -118,6 +122,7 @@ void SectionPresenter::cut(Direction direction, const Point& normal,
                        : direction == Direction::z    ? "Z"
                        : direction == Direction::view ? tr("along the view")
                                                       : tr("through points");
+  bar_->set_unit_suffix(unit_suffix(session_->shown().document));
   bar_->show_plane(name, low, high, position_);
   show();
 }

@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 #include <QDateTime>
 #include <QDir>
+#include <QEventLoop>
 #include <QFile>
 #include <QFileInfo>
 #include <QRandomGenerator>
@@ -268,22 +269,33 @@ void Session::tell(const Error& error, const QString& session, const QStringList
 void Session::open_session(const QString& path, const QStringList& located) {
   if (busy_) return;
   cancel_preview();
+  // The file that is open here already is opened again, not by another window.
+  const auto own = std::make_shared<std::unique_ptr<FileLock>>();
+  if (QFileInfo(path).absoluteFilePath() == file_) *own = std::move(file_lock_);
   start_work(
-      [path, located](const Context& context) {
+      [path, located, own](const Context& context) {
         // The lock comes first, so that no other window saves between reading and locking.
         const std::string file = path.toStdString();
         const bool is_file = SessionFile::is_session(file);
-        std::unique_ptr<FileLock> lock = is_file ? FileLock::take(file) : nullptr;
+        std::unique_ptr<FileLock> lock = *own      ? std::move(*own)
+                                         : is_file ? FileLock::take(file)
+                                                   : nullptr;
         Result<Opened> opened = replayed(path, located, context);
-        if (!opened) return opened;
+        if (!opened) {
+          *own = std::move(lock);
+          return opened;
+        }
         if (is_file) opened->file = QFileInfo(path).absoluteFilePath();
         opened->read_only = is_file && !lock;
         opened->lock = std::move(lock);
         keep(*opened, context.part(0.9, 1.0));
         return opened;
       },
-      [this, path, located](Result<Opened> opened) {
-        if (!opened) return tell(opened.error(), path, located);
+      [this, path, located, own](Result<Opened> opened) {
+        if (!opened) {
+          if (QFileInfo(path).absoluteFilePath() == file_) file_lock_ = std::move(*own);
+          return tell(opened.error(), path, located);
+        }
         take_over(std::move(*opened));
       });
 }
@@ -331,6 +343,7 @@ void Session::recover(const QString& path, const QStringList& located) {
 }
 
 void Session::set_recovery(Recovery recovery) {
+  kept_view_.clear();
   recovery_ = std::move(recovery);
   history_.set_journal(recovery_.file);
   if (recovery_.file) history_.set_files(SessionFile::files(recovery_.file));
@@ -361,17 +374,31 @@ void Session::take_over(Opened opened) {
 
 QString Session::part_name() const { return name_of_part(current_.document); }
 
-Result<void> Session::save(const QString& path, const SessionExtras& given) {
+void Session::save(const QString& path, const SessionExtras& given,
+                   std::function<void(const Result<void>&)> then) {
   const std::string file = QFileInfo(path).absoluteFilePath().toStdString();
-  if (busy_) return fail(tr("Wait until the work that runs is done.").toStdString());
+  if (busy_) return then(fail(tr("Wait until the work that runs is done.").toStdString()));
   const bool is_own = file == file_.toStdString() && !read_only_;
   if (!is_own && FileLock::is_taken(file))
-    return fail(tr("%1 is open in another window. Choose another name.").arg(path).toStdString());
+    return then(
+        fail(tr("%1 is open in another window. Choose another name.").arg(path).toStdString()));
   SessionExtras extras = given;
   extras.key = own_key();
   extras.part = part_name().toStdString();
   extras.saved_as.clear();
-  if (const auto written = save_session(file, history_, extras); !written) return written;
+  ++saves_;
+  // A copy, which shares the document: what is done from here on does not touch it.
+  const auto history = std::make_shared<const History>(history_.copy_to_save());
+  work_aside([file, history, extras] { return save_session(file, *history, extras); },
+             [this, file, history, extras, round = round_,
+              then = std::move(then)](const Result<void>& written) {
+               --saves_;
+               if (written && round == round_) take_saved(file, *history, extras);
+               then(written);
+             });
+}
+
+void Session::take_saved(const std::string& file, const History& saved, SessionExtras extras) {
   file_ = QString::fromStdString(file);
   file_lock_ = FileLock::take(file);
   read_only_ = false;
@@ -381,8 +408,24 @@ Result<void> Session::save(const QString& path, const SessionExtras& given) {
     Result<Recovery> recovery = start_recovery(history_, extras, {});
     if (recovery) set_recovery(std::move(*recovery));
   }
-  mark_saved();
-  return {};
+  saved_head_ = saved.head();
+  saved_names_ = saved.names();
+  emit this->saved();
+}
+
+void Session::wait_until_saved() {
+  while (saving()) {
+    // A question that a failure leads to runs a loop of its own, with input.
+    QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
+                                    QEventLoop::WaitForMoreEvents);
+  }
+}
+
+void Session::keep_view(const std::string& view) {
+  if (!recovery_.file || view == kept_view_) return;
+  kept_view_ = view;
+  // An edit will tell what is wrong with the file; a view alone is not worth a word.
+  static_cast<void>(recovery_.file->set_view(view));
 }
 
 namespace {
@@ -446,6 +489,7 @@ bool Session::has_unsaved_edits() const {
 }
 
 void Session::close() {
+  ++round_;
   history_.set_journal(nullptr);
   history_.set_files(nullptr);
   recovery_.file.reset();

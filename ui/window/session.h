@@ -77,9 +77,17 @@ class Session : public QObject {
   QString part_name() const;
   /// What the session that was opened holds beside its history.
   const SessionExtras& extras() const { return extras_; }
-  /// Writes the session to a file, which is its file from then on. Errors: cannot be written,
-  /// another window has that file open, work is running; the session is as it was then.
-  Result<void> save(const QString& path, const SessionExtras& extras);
+  /// Writes the session as it is now to a file, which is its file from then on; on the worker
+  /// thread, while this one goes on. `then` hears on this thread how it went. Errors: cannot be
+  /// written, another window has that file open, work is running; the session is as it was then.
+  void save(const QString& path, const SessionExtras& extras,
+            std::function<void(const Result<void>&)> then);
+  bool saving() const { return saves_ > 0; }
+  /// Returns once nothing is being saved any more. The window is drawn meanwhile, and takes no
+  /// input but that of a question that saving leads to.
+  void wait_until_saved();
+  /// Keeps how the part is looked at by now in the recovery session, for after a crash.
+  void keep_view(const std::string& view);
 
   /// Goes on with a session that a crash left behind (see abandoned_sessions()).
   void recover(const QString& recovery, const QStringList& located = {});
@@ -194,6 +202,7 @@ class Session : public QObject {
                                  const Context& context);
   /// Keeps what was opened safe from here on.
   static void keep(Opened& opened, const Context& context);
+  void take_saved(const std::string& file, const History& saved, SessionExtras extras);
   void set_recovery(Recovery recovery);
   void take_over(Opened opened);
   /// Tells why a session was not opened.
@@ -207,6 +216,9 @@ class Session : public QObject {
   std::unique_ptr<FileLock> file_lock_;
   bool read_only_ = false;
   SessionExtras extras_;
+  int saves_ = 0;            // that are not done
+  std::uint64_t round_ = 0;  // of the session: what was saved of one before is not of this one
+  std::string kept_view_;
   std::uint32_t saved_head_ = 0;
   std::map<std::uint32_t, std::string> saved_names_;
   ShownDocument current_;

@@ -11,6 +11,7 @@
 #include "core/partitions/intervals.h"
 #include "core/sharp_lines/sharp_lines.h"
 #include "ui/panels/controls.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -102,7 +103,7 @@ int magnitude_of(const Mesh& mesh) {
   return diagonal > 0.0 ? static_cast<int>(std::floor(std::log10(diagonal))) : 0;
 }
 
-/// As many as show a millionth of a percent of the part in whatever unit, 6 for one of 200 mm.
+/// As many as show a millionth of a percent of the part in whatever unit, 6 for one of 200.
 int length_decimals_of(const Mesh& mesh) { return std::clamp(8 - magnitude_of(mesh), 0, 15); }
 
 double longest_of(const Mesh& mesh) { return 1000.0 * mesh.diagonal(); }
@@ -279,7 +280,7 @@ StepCard StepsPresenter::lines_card() {
                     0, 1, 32)),
       by_method(real("min_length", tr("Least length"),
                      tr("Isolated lines shorter than this are removed; 0 keeps them."), 0.0, 0.0,
-                     longest, length_decimals, " mm")),
+                     longest, length_decimals, unit_suffix(document))),
       of_walk(whole("parallel_distance", tr("Parallel within"),
                     tr("Of two parallel lines of one sign this many edges apart the weaker is "
                        "removed; 0 keeps both."),
@@ -287,12 +288,12 @@ StepCard StepsPresenter::lines_card() {
       by_method(real("bridge_gap", tr("Bridge gaps"),
                      tr("Loose ends with at most this distance between them are joined; 0 joins "
                         "none."),
-                     0.0, 0.0, longest, length_decimals, " mm"))};
+                     0.0, 0.0, longest, length_decimals, unit_suffix(document)))};
   if (document.find_sharp_lines) {
     double length = 0.0;
     for (const LinePtr& line : document.lines.lines) length += line->length;
     lines.result = shown_count(document.lines.lines.size(), tr("line"), tr("lines")) + ", " +
-                   QString::fromStdString(fixed_text(length, length < 100.0 ? 1 : 0)) + " mm";
+                   QString::fromStdString(length_in_words(length, length_unit_of(document)));
   }
   return lines;
 }
@@ -399,8 +400,9 @@ void StepsPresenter::refresh() {
     open.state = StepState::done;
     open.result =
         shown_count(mesh.face_count(), tr("face"), tr("faces")) + ", " +
-        tr("edges %1 mm, %2")
-            .arg(QString::fromStdString(arris::number_text(mesh.mean_edge_length(), 3)),
+        tr("edges %1, %2")
+            .arg(QString::fromStdString(arris::number_text(mesh.mean_edge_length(), 3)) +
+                     unit_suffix(document),
                  shown_count(mesh.border_edge_count(), tr("border edge"), tr("border edges")));
     if (!document.scan->report.clean()) open.result += "; " + tr("mended, see the load report");
     open.time = seconds_text(session_->seconds_of("open"));
@@ -425,6 +427,7 @@ void StepsPresenter::refresh() {
   if (!document.empty()) {
     const double longest = longest_of(*document.mesh);
     const int length_decimals = length_decimals_of(*document.mesh);
+    const QString suffix = unit_suffix(document);
     const nlohmann::json z = session_->parameters("simplify");
     simplify.state = state_of(document.simplify);
     simplify.time = seconds_text(session_->seconds_of("simplify"));
@@ -432,16 +435,17 @@ void StepsPresenter::refresh() {
         real("error_zone", tr("Error zone"),
              tr("Radius of the sphere round each vertex of the scan that the surface has to meet. "
                 "The default is three times the noise of the scan."),
-             z.value("error_zone", 0.0), 0.0, longest, length_decimals, " mm"),
+             z.value("error_zone", 0.0), 0.0, longest, length_decimals, suffix),
         real("max_edge_length", tr("Longest edge"),
              tr("No new edge becomes longer than this, so that flat areas stay populated; 0: no "
                 "limit."),
-             z.value("max_edge_length", 0.0), 0.0, longest, length_decimals, " mm")};
+             z.value("max_edge_length", 0.0), 0.0, longest, length_decimals, suffix)};
     if (document.simplified.mesh)
       simplify.result =
           vertices_text(*document.opened.mesh, *document.simplified.mesh) +
-          tr(", all within %1 mm")
-              .arg(QString::fromStdString(arris::number_text(z.value("error_zone", 0.0), 3)));
+          tr(", all within %1")
+              .arg(QString::fromStdString(arris::number_text(z.value("error_zone", 0.0), 3)) +
+                   suffix);
     swap.state = state_of(document.swap_edges);
     swap.time = seconds_text(session_->seconds_of("swap_edges"));
     const MeshPtr before_swaps =

@@ -7,6 +7,7 @@
 
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatment.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -136,7 +137,9 @@ void ThresholdPresenter::refresh() {
       handle.most = std::max(distribution.max(), bound * 1.01);
       handle.least = std::min(handle.most * 1e-7, bound);
       if (field == Field::kabs)
-        handle.reading = [](double kabs) { return "r = " + number(cylinder_radius(kabs)) + " mm"; };
+        handle.reading = [suffix = unit_suffix(session_->shown().document)](double kabs) {
+          return "r = " + number(cylinder_radius(kabs)) + suffix;
+        };
       handle.tooltip =
           tr("End of a curvature interval: partitions take faces whose vertices lie between Kmin "
              "and Kmax. Drag it: the partitions follow.");

@@ -204,7 +204,8 @@ void TourPresenter::take_opened() {
     // What comes after Find needs what it finds.
     constexpr std::size_t find = 1;
     begin(has_found() ? step_ : std::min(step_, find));
-  } else if (offer_wanted_) {
+  } else if (offer_wanted_ && session_->history().entries().size() <= 1) {
+    // Not over work that is taken up again.
     offer_wanted_ = false;
     state_ = State::offering;
     show_page();

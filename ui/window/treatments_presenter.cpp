@@ -10,6 +10,7 @@
 #include "core/sharp_lines/interactive_treatments.h"
 #include "ui/panels/controls.h"
 #include "ui/window/actions.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -439,7 +440,7 @@ void TreatmentsPresenter::stop() {
 
 void TreatmentsPresenter::show_result() {
   const Document &before = session_->current().document, &after = session_->shown().document;
-  const auto mm = [](double length) { return shown_number(length, 3) + tr(" mm"); };
+  const LengthUnit unit = length_unit_of(after);
   double length_before = 0.0, length_after = 0.0;
   for (const LinePtr& line : before.lines.lines) length_before += line->length;
   for (const LinePtr& line : after.lines.lines) length_after += line->length;
@@ -447,7 +448,8 @@ void TreatmentsPresenter::show_result() {
   if (before.lines.lines != after.lines.lines) {
     const double change = length_after - length_before;
     parts << tr("lines %1%2, %3 → %4")
-                 .arg(change < 0.0 ? "−" : "+", mm(std::abs(change)))
+                 .arg(change < 0.0 ? "−" : "+",
+                      shown_number(std::abs(change), 3) + unit_in_sentence(unit))
                  .arg(before.lines.lines.size())
                  .arg(after.lines.lines.size());
   }
@@ -461,8 +463,9 @@ void TreatmentsPresenter::show_result() {
                        .arg(after.partitions.partitions.size());
     constexpr double rounding = 1e-9;
     if (std::abs(change) > rounding * area_before)
-      text +=
-          tr(", area %1%2 mm²").arg(change < 0.0 ? "−" : "+", shown_number(std::abs(change), 3));
+      text += tr(", area %1%2")
+                  .arg(change < 0.0 ? "−" : "+",
+                       shown_number(std::abs(change), 3) + unit_in_sentence(unit, 2));
     parts << text;
   }
   bar_->set_result(parts.isEmpty() ? tr("nothing changes") : parts.join("; "), false);

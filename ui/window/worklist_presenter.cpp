@@ -7,6 +7,7 @@
 #include "core/base/words.h"
 #include "ui/panels/controls.h"
 #include "ui/window/actions.h"
+#include "ui/window/unit_suffix.h"
 
 namespace arris::ui {
 
@@ -32,8 +33,8 @@ QString title_of(WorkKind kind) {
   return {};
 }
 
-QString choice_text(const Continuation& way) {
-  const QString length = QString::fromStdString(measure_text(way.length)) + " mm";
+QString choice_text(const Continuation& way, LengthUnit unit) {
+  const QString length = QString::fromStdString(length_in_words(way.length, unit));
   const QString where = way.line != 0 ? QObject::tr("to line %1").arg(way.line)
                         : way.arrives ? QObject::tr("to the border")
                                       : QObject::tr("fading out");
@@ -184,7 +185,8 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
     if (item.small) small = std::max(small, item.extent);
   const Mesh& mesh = *session_->current().document.mesh;
   panel_->set_small_extent(
-      round_significant(std::max(1.001 * small, 2.0 * mesh.mean_edge_length()), 2));
+      round_significant(std::max(1.001 * small, 2.0 * mesh.mean_edge_length()), 2),
+      unit_suffix(session_->current().document));
   list();
   if (const int row = std::exchange(go_to_, -1); row >= 0 && !items_.empty())
     show(std::min(row, static_cast<int>(items_.size()) - 1), 0, true);
@@ -192,10 +194,11 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
 
 void WorklistPresenter::list() {
   std::vector<WorkRow> rows;
+  const LengthUnit unit = length_unit_of(session_->current().document);
   for (const WorkItem& item : items_) {
     WorkRow row{
         item.small ? tr("Small") : title_of(item.kind), QString::fromStdString(item.sentence), {}};
-    for (const Continuation& way : item.continuations) row.choices << choice_text(way);
+    for (const Continuation& way : item.continuations) row.choices << choice_text(way, unit);
     rows.push_back(std::move(row));
   }
   panel_->set_rows(std::move(rows));

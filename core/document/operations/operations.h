@@ -13,6 +13,7 @@ extern const OperationKind open_operation;
 /// null: it is where it was.
 Result<Document> open_scan_of(const Document& document, const nlohmann::json& parameters,
                               const FileSource* files, const Context& context);
+extern const OperationKind set_unit_operation;
 extern const OperationKind flip_orientation_operation;
 extern const OperationKind delete_faces_operation;
 extern const OperationKind find_sharp_lines_operation;

@@ -80,7 +80,7 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
 
 std::string words_of_simplify(const nlohmann::json& parameters) {
   if (!parameters.contains("error_zone")) return "Simplify";
-  return "Simplify within " + number_text(parameters["error_zone"].get<double>(), 3) + " mm";
+  return "Simplify within " + number_text(parameters["error_zone"].get<double>(), 3);
 }
 
 Result<nlohmann::json> resolve_swap(const Document&, const nlohmann::json& given) {

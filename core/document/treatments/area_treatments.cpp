@@ -78,7 +78,7 @@ Result<json> resolve_extend(const Document& document, const json& given) {
   if (!areas.is_null()) {
     if (!areas.is_array() || areas.size() != ids.size() ||
         !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); }))
-      reader.fault("areas", "an area in mm² for each partition");
+      reader.fault("areas", "an area for each partition");
     return reader.finish();
   }
   Ground ground = ground_of(document);
@@ -106,8 +106,10 @@ Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
     const double now = std::accumulate(gained->begin(), gained->end(), 0.0);
     const double least = 3.0 * ground.mesh.mean_edge_length() * ground.mesh.mean_edge_length();
     if (now > far_larger * std::max(meant, least))
-      return fail("With these thresholds it would run over " + measure_text(now) +
-                  " mm², where it was made for " + measure_text(meant) + " mm²; it is left out.");
+      return fail("With these thresholds it would run over " +
+                  (meant > 0.0 ? measure_text(now / meant) + " times the area that it was made for"
+                               : "an area, where it was made for none") +
+                  "; it is left out.");
   }
   ground.change_to(std::move(tried));
   return outcome;
@@ -133,7 +135,7 @@ Result<json> resolve_remove(const Document& document, const json& given) {
   if (!areas.is_null() &&
       (!areas.is_array() || areas.size() != own.size() ||
        !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); })))
-    reader.fault("areas", "an area in mm² for each partition");
+    reader.fault("areas", "an area for each partition");
   reader.set("areas", areas.is_null() ? own : areas);
   return reader.finish();
 }

@@ -414,7 +414,7 @@ void read_region(ParameterReader& reader, const Document& document, const std::s
       !given.contains("radius") || !is_list_of_vertices(given["vertices"]) ||
       given["vertices"].empty() || !given["radius"].is_number() ||
       !(given["radius"].get<double>() >= 0.0) || given["radius"].get<double>() > longest)
-    reader.fault(name, "a region {\"vertices\": [...], \"radius\": mm}");
+    reader.fault(name, "a region {\"vertices\": [...], \"radius\": length}");
   reader.set(name, given);
 }
 

@@ -1,0 +1,98 @@
+#include "ui/view/graphics.h"
+
+#include <dlfcn.h>
+
+#include <vtkVersion.h>
+#include <QCoreApplication>
+#include <QGuiApplication>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QSurfaceFormat>
+
+namespace arris::ui {
+
+namespace {
+
+constexpr int least_major = 3, least_minor = 2;  // of OpenGL, for VTK
+QString found;                                   // by why_nothing_can_be_drawn()
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("arris::ui::Graphics", text);
+}
+
+QString text_of(QOpenGLFunctions& functions, GLenum name) {
+  return QString::fromLatin1(reinterpret_cast<const char*>(functions.glGetString(name)));
+}
+
+/// What is wrong with the context; empty: nothing.
+QString fault_of(QOpenGLContext& context) {
+  if (!context.create()) return translated("this display offers no OpenGL");
+#if defined(Q_OS_LINUX) && QT_CONFIG(xcb_glx_plugin)
+  // Debian's VTK finds the functions of OpenGL through GLX alone.
+  if (QGuiApplication::platformName() == "xcb" &&
+      !context.nativeInterface<QNativeInterface::QGLXContext>())
+    return translated("this display offers OpenGL, but not through GLX, which Arris needs");
+#endif
+  QOffscreenSurface surface;
+  surface.setFormat(context.format());
+  surface.create();
+  if (!context.makeCurrent(&surface)) return translated("OpenGL of this display cannot be used");
+  QOpenGLFunctions& functions = *context.functions();
+  found = translated("%1, OpenGL %2")
+              .arg(text_of(functions, GL_RENDERER), text_of(functions, GL_VERSION));
+  const QSurfaceFormat format = context.format();
+  context.doneCurrent();
+  if (format.version() < std::pair(least_major, least_minor))
+    return translated("OpenGL here is %1.%2 (%3), and Arris needs %4.%5 or later")
+        .arg(format.majorVersion())
+        .arg(format.minorVersion())
+        .arg(found.section(", OpenGL", 0, 0))
+        .arg(least_major)
+        .arg(least_minor);
+  return {};
+}
+
+}  // namespace
+
+QString why_no_display() {
+#ifdef Q_OS_LINUX
+  if (qEnvironmentVariable("QT_QPA_PLATFORM", "xcb") != "xcb") return {};
+  void* const library = ::dlopen("libxcb.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (!library) return {};  // Qt will say what it misses
+  using Connect = void*(const char*, int*);
+  using HasError = int(void*);
+  using Disconnect = void(void*);
+  auto* const connect = reinterpret_cast<Connect*>(::dlsym(library, "xcb_connect"));
+  auto* const has_error = reinterpret_cast<HasError*>(::dlsym(library, "xcb_connection_has_error"));
+  auto* const disconnect = reinterpret_cast<Disconnect*>(::dlsym(library, "xcb_disconnect"));
+  if (!connect || !has_error || !disconnect) return {};
+  void* const connection = connect(nullptr, nullptr);
+  const bool fails = has_error(connection) != 0;
+  disconnect(connection);
+  if (!fails) return {};
+  const QString name = qEnvironmentVariable("DISPLAY");
+  return (name.isEmpty() ? translated("There is no display (DISPLAY is not set)")
+                         : translated("The display %1 cannot be reached").arg(name)) +
+         translated(": start Arris on a desktop, or with xvfb-run; arris-cli works without one.");
+#else
+  return {};
+#endif
+}
+
+QString why_nothing_can_be_drawn() {
+  QOpenGLContext context;
+  const QString fault = fault_of(context);
+  if (fault.isEmpty()) return {};
+  return translated(
+             "Arris cannot draw: %1. Draw by the processor instead (LIBGL_ALWAYS_SOFTWARE=1 "
+             "arris), update the graphics driver, or start Arris on the computer's own screen; "
+             "arris-cli works without graphics.")
+      .arg(fault);
+}
+
+QString graphics_text() { return found; }
+
+QString vtk_version() { return QString::fromLatin1(vtkVersion::GetVTKVersion()); }
+
+}  // namespace arris::ui
