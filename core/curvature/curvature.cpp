@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/base/watched_for.h"
 #include "core/mesh/geometry.h"
 
 namespace arris {
@@ -121,7 +122,8 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
   c.beta.assign(mesh.edge_count(), 0.0f);
   {
     const std::vector<Point> normals = face_normals(mesh);
-    parallel_for(mesh.edge_count(), [&](std::size_t i) {
+    const Context part = context.part(0.0, 0.3);
+    const auto measure = [&](std::size_t i) {
       const EdgeId e = static_cast<EdgeId>(i);
       const auto [left, right] = mesh.edge_faces(e);
       if (left == no_id || right == no_id) return;
@@ -129,9 +131,9 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
       const Point cross = normals[left].cross(normals[right]);
       const double angle = std::atan2(cross.norm(), normals[left].dot(normals[right]));
       c.beta[i] = static_cast<float>(cross.dot(direction) < 0.0 ? -angle : angle);
-    });
+    };
+    if (!watched_for(mesh.edge_count(), part, "curvatures", measure)) return cancelled();
   }
-  if (context.cancelled()) return cancelled();
   context.report(0.3, "curvatures");
 
   const std::size_t n = mesh.vertex_count();
@@ -139,7 +141,7 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
        {&c.k_area, &c.k, &c.h_area, &c.h, &c.kabs, &c.ih1, &c.ih2, &c.ik1, &c.ik2, &c.ikabs})
     values->assign(n, undefined);
   std::vector<std::uint8_t> mixed(n, 0);
-  parallel_for(n, [&](std::size_t i) {
+  const auto measure = [&](std::size_t i) {
     const VertexId v = static_cast<VertexId>(i);
     if (mesh.is_isolated(v)) return;
     const Star star = star_of(mesh, c.beta, v);
@@ -174,9 +176,9 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
         options.pairing == InvariantPairing::h1_k2 || options.pairing == InvariantPairing::h2_k2;
     const double ih = h2 ? c.ih2[i] : c.ih1[i];
     c.ikabs[i] = std::max(0.0, 4.0 * ih * ih - 2.0 * (k2 ? c.ik2[i] : c.ik1[i]));
-  });
+  };
+  if (!watched_for(n, context.part(0.3, 0.7), "curvatures", measure)) return cancelled();
   c.mixed_area_vertices = static_cast<std::uint64_t>(std::count(mixed.begin(), mixed.end(), 1));
-  if (context.cancelled()) return cancelled();
   context.report(0.7, "curvatures");
 
   // A principal curvature counts as zero where its radius exceeds the part, or where noise alone
@@ -194,9 +196,13 @@ Result<CurvaturesPtr> compute_curvatures(const Mesh& mesh, const CurvatureOption
     const double h_noise = 1.4826 * *middle / std::numbers::sqrt2;   // standard deviation of H
     c.shape_tolerance = std::max(c.shape_tolerance, 4.0 * h_noise);  // k is H and a root of H^2 - K
   }
+  if (context.cancelled()) return cancelled();
+  context.report(0.8, "curvatures");
   c.shape.assign(n, Shape::undefined);
   parallel_for(n, [&](std::size_t i) { c.shape[i] = shape_of(c.k[i], c.h[i], c.shape_tolerance); });
 
+  if (context.cancelled()) return cancelled();
+  context.report(0.85, "curvatures");
   for (VertexId v = 0; v < n; ++v)
     if (!mesh.is_isolated(v) && !mesh.is_border(v)) c.by_decreasing_ikabs.push_back(v);
   parallel_sort(c.by_decreasing_ikabs.begin(), c.by_decreasing_ikabs.end(),

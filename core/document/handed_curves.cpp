@@ -57,14 +57,18 @@ HandedCurves handed_boundaries(const Document& document) {
     if (boundary->type == BoundaryType::c0) name += "_line" + std::to_string(boundary->line);
     for (const std::uint32_t id : {boundary->left, boundary->right})
       if (id != 0) name += "_p" + std::to_string(id);
+    // One value for one line: over edges that a scan has rounded, the mesh's own angle is a part of
+    // it.
+    const Line* line = document.lines.find(boundary->line);
+    const double angle = line ? line->mean_angle : boundary->mean_angle;
     handed.curves.push_back(
         {std::move(name),
          layer_of(boundary->type),
          &boundary->vertices,
          boundary->closed,
          {static_cast<double>(number), static_cast<double>(boundary->left),
-          static_cast<double>(boundary->right), static_cast<double>(boundary->line),
-          boundary->mean_angle, boundary->length, boundary->closed ? 1.0 : 0.0}});
+          static_cast<double>(boundary->right), static_cast<double>(boundary->line), angle,
+          boundary->length, boundary->closed ? 1.0 : 0.0}});
   }
   return handed;
 }

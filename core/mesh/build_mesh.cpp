@@ -67,7 +67,7 @@ class Builder {
     Result<MeshPtr> mesh = Mesh::create(std::move(points_), std::move(triangles_));
     if (!mesh) return tl::unexpected(mesh.error());
     context_.report(0.95, "building the mesh");
-    describe(**mesh);
+    if (!describe(**mesh)) return cancelled();
     context_.report(1.0, "building the mesh");
     return BuiltMesh{std::move(*mesh), std::move(sources_)};
   }
@@ -581,8 +581,17 @@ class Builder {
     sort_once(report_.non_manifold_vertices);
   }
 
-  /// Fills in what is true of the mesh that came out.
-  void describe(const Mesh& mesh) {
+  /// Now and then: tells how far it is, and whether it goes on.
+  bool goes_on(std::size_t done, std::size_t of, double from, double to) const {
+    constexpr std::size_t pause = std::size_t{1} << 17;
+    if (done % pause != 0) return true;
+    context_.report(from + (to - from) * static_cast<double>(done) / static_cast<double>(of),
+                    "building the mesh");
+    return !context_.cancelled();
+  }
+
+  /// Fills in what is true of the mesh that came out. False: cancelled.
+  bool describe(const Mesh& mesh) {
     report_.vertices = mesh.vertex_count();
     report_.faces = mesh.face_count();
     report_.edges = mesh.edge_count();
@@ -594,6 +603,7 @@ class Builder {
         static_cast<std::int64_t>(mesh.edge_count()) + static_cast<std::int64_t>(mesh.face_count());
 
     for (FaceId f = 0; f < mesh.face_count(); ++f) {
+      if (!goes_on(f, mesh.face_count(), 0.95, 0.97)) return false;
       const auto& [a, b, c] = mesh.triangle(f);
       const Point ab = mesh.point(b) - mesh.point(a), ac = mesh.point(c) - mesh.point(a);
       const double longest =
@@ -621,6 +631,7 @@ class Builder {
       reached[seed] = true;
       queue.assign(1, seed);
       for (std::size_t at = 0; at < queue.size(); ++at) {
+        if (!goes_on(at + 1, mesh.face_count(), 0.97, 1.0)) return false;
         const auto& [a, b, c] = mesh.triangle(queue[at]);
         part +=
             (mesh.point(a) - centre).dot((mesh.point(b) - centre).cross(mesh.point(c) - centre)) /
@@ -638,6 +649,7 @@ class Builder {
       if (closed) volume += part;
     }
     report_.looks_inside_out = volume < -rounding * std::pow(mesh.diagonal(), 3);
+    return true;
   }
 
   std::vector<Point> points_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/watched_for.h"
 #include "core/partitions/surface_growing.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -46,8 +47,9 @@ struct AreaBorder {
 /// Joins areas, round after round.
 class AreaJoining {
  public:
-  AreaJoining(AreasToJoin given, const AreaJoiningOptions& options)
-      : mesh_(given.mesh),
+  AreaJoining(AreasToJoin given, const AreaJoiningOptions& options, const Context& context)
+      : context_(context),
+        mesh_(given.mesh),
         table_(given.table),
         lines_(given.lines),
         banded_(given.banded),
@@ -73,6 +75,7 @@ class AreaJoining {
     parallel_for(
         fits_.size(),
         [&](std::size_t a) {
+          if (context_.cancelled()) return;
           samples_[a] = thinned(std::move(samples_[a]), options.samples);
           fits_[a] = fit_of(samples_[a]);
         },
@@ -81,14 +84,20 @@ class AreaJoining {
 
   const std::vector<FittedSurface>& surfaces() const { return fits_; }
 
-  std::vector<AreaJoin> run(const Context& context) {
+  std::vector<AreaJoin> run() {
     std::vector<float> heights;
     for (int k = 1; k <= options_.rounds; ++k)
       heights.push_back(static_cast<float>(k) / static_cast<float>(options_.rounds));
     for (const float height : {1.5F, 2.5F, 5.0F, 20.0F}) heights.push_back(height);
-    for (std::size_t k = 0; k < heights.size() && !context.cancelled(); ++k) {
-      context.report(static_cast<double>(k) / static_cast<double>(heights.size()), "areas");
-      join_up_to(heights[k]);
+    // The first round looks at every border there is, the others at those that are left.
+    constexpr double first = 0.6;
+    for (std::size_t k = 0; k < heights.size() && !context_.cancelled(); ++k) {
+      const auto until = [&](std::size_t round) {
+        return round == 0 ? 0.0
+                          : first + (1.0 - first) * static_cast<double>(round - 1) /
+                                        static_cast<double>(heights.size() - 1);
+      };
+      join_up_to(heights[k], context_.part(until(k), until(k + 1)));
     }
     return std::move(joins_);
   }
@@ -172,7 +181,8 @@ class AreaJoining {
     return cost / options_.kink;
   }
 
-  void join_up_to(float height) {
+  void join_up_to(float height, const Context& context) {
+    context.report(0.0, "areas");
     std::vector<std::uint32_t> labels(base_.size());
     parallel_for(labels.size(), [&](std::size_t f) { labels[f] = root(base_[f]); });
     const BorderPlaces places = measure_borders(mesh_, table_, labels, banded_, options_.border);
@@ -205,9 +215,8 @@ class AreaJoining {
       }
     std::vector<AreaBorder*> borders;
     for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
-    parallel_for(
-        pairs.size(), [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); },
-        16);
+    const auto measure = [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); };
+    if (!watched_for(pairs.size(), context.part(0.1, 0.9), "areas", measure, 16)) return;
     joining.run(
         height,
         [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
@@ -220,6 +229,7 @@ class AreaJoining {
 
   /// A cost stays as long as neither of the two areas has become another.
   float known_cost(AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
+    if (context_.cancelled()) return never;  // what comes of it is thrown away
     std::array<std::uint32_t, 2> states{state_[a], state_[b]};
     if (states[0] > states[1]) std::swap(states[0], states[1]);
     if (border.known < 0.0F || border.known_for != states) {
@@ -259,6 +269,7 @@ class AreaJoining {
     joins_.push_back({into, gone, height_, fits_[into]});
   }
 
+  const Context& context_;
   const Mesh& mesh_;
   const FaceTable& table_;
   const SharpLines& lines_;
@@ -282,10 +293,10 @@ class AreaJoining {
 
 JoinedAreas join_areas(AreasToJoin areas, const AreaJoiningOptions& options,
                        const Context& context) {
-  AreaJoining joining(std::move(areas), options);
+  AreaJoining joining(std::move(areas), options, context);
   JoinedAreas result;
   result.surfaces = joining.surfaces();
-  result.joins = joining.run(context);
+  result.joins = joining.run();
   return result;
 }
 

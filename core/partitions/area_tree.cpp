@@ -129,14 +129,19 @@ std::vector<FittedSurface> surfaces_of(const AreaTree& tree) {
 /// Moves the borders of the usual areas to where they belong, and those of the pieces inside
 /// each. `table` is as before in the end.
 void settle(const Mesh& mesh, AreaTree& tree, FaceTable& table,
-            const std::vector<float>& edge_length, const AreaBorderOptions& options) {
+            const std::vector<float>& edge_length, const AreaBorderOptions& options,
+            const Context& context) {
   const std::vector<FittedSurface> surfaces = surfaces_of(tree);
   const Roots usual(surfaces, tree.joins, 1.0F);
   std::vector<std::uint32_t> area(tree.of_face.size());
   parallel_for(area.size(), [&](std::size_t f) { area[f] = usual.of_piece[tree.of_face[f]]; });
   const AreaGround over{mesh, table, edge_length, usual.surfaces, tree.face_noise, tree.banded};
   settle_borders(over, options, area);
+  if (context.cancelled()) return;
+  context.report(0.4, "borders");
   straighten_borders(over, options, area);
+  if (context.cancelled()) return;
+  context.report(0.7, "borders");
   keep_largest_pieces(table, edge_length, area);
 
   const std::vector<std::array<FaceId, 3>> neighbours = table.neighbours;
@@ -284,23 +289,28 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
     edge_length[e] = static_cast<float>(mesh.edge_length(static_cast<EdgeId>(e)) / table.unit);
   });
   Result<CurvatureKinks> kinks =
-      measure_curvature_kinks(mesh, table, tree.banded, options.kinks, context.part(0.0, 0.4));
+      measure_curvature_kinks(mesh, table, tree.banded, options.kinks, context.part(0.0, 0.3));
   if (!kinks) return tl::unexpected<Error>(kinks.error());
   FaceRegions areas =
       smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options.smallest);
   if (context.cancelled()) return cancelled();
+  context.report(0.33, "areas");
   // Grains of a fine scan are larger: a part as such has no more to tell, and what a scan is off by
   // over long ways is noise of the samples then, too.
   const double scale = part_size(mesh) / usual_part_size;
   const int grain = static_cast<int>(options.grain * std::max(1.0, scale));
   Grains grains = make_grains(table, areas, tree.banded, grain);
+  if (context.cancelled()) return cancelled();
+  context.report(0.35, "surfaces");
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
                                  static_cast<double>(options.angle) * radians};
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
   const SurfaceNoise near_noise = tree.noise;
   const FaceRegions old = areas;
   for (int round = 1;; ++round) {
-    const std::vector<std::uint32_t> grown = grow_surfaces(grains, tree.noise, options.growing);
+    const std::vector<std::uint32_t> grown =
+        grow_surfaces(grains, tree.noise, options.growing,
+                      context.part(round == 1 ? 0.35 : 0.43, round == 1 ? 0.43 : 0.5));
     if (context.cancelled()) return cancelled();
     // Over whole surfaces a scan is farther off than over a few edges: with the noise that they
     // show they grow again, until it stays.
@@ -330,8 +340,9 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   JoinedAreas joined =
       join_areas({mesh, table, lines, areas, tree.banded, samples_by_area(grains, areas.count),
                   grain, tree.noise, kinks->noise},
-                 scaled(options.joining, scale), context.part(0.5, 0.95));
+                 scaled(options.joining, scale), context.part(0.5, 0.9));
   if (context.cancelled()) return cancelled();
+  context.report(0.9, "pieces");
   tree.joins =
       join_pieces(table, pieces, areas, *kinks, edge_length, joined.surfaces, options.inner);
   // From here on an area goes by the piece that its pieces were joined to.
@@ -359,7 +370,10 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   tree.face_noise = {tree.noise.distance * options.face_noise,
                      std::max(static_cast<double>(kinks->noise) * radians, tree.noise.angle)};
   tree.of_face = pieces.of_face;
-  settle(mesh, tree, table, edge_length, options.borders);
+  if (context.cancelled()) return cancelled();
+  settle(mesh, tree, table, edge_length, options.borders, context.part(0.93, 0.98));
+  if (context.cancelled()) return cancelled();
+  context.report(0.98, "pieces");
   measure_pieces(mesh, table, edge_length, tree);
   tree.neighbours = std::move(table.neighbours);
   if (context.cancelled()) return cancelled();

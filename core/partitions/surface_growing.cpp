@@ -28,7 +28,8 @@ class Growing {
         seen_(grains.size(), 0),
         tried_(grains.size(), 0) {}
 
-  std::vector<std::uint32_t> run() {
+  std::vector<std::uint32_t> run(const Context& context) {
+    context_ = context;
     // Grains of each area; the areas by their size.
     std::uint32_t areas = 0;
     for (const std::uint32_t a : grains_.area) areas = std::max(areas, a + 1);
@@ -39,11 +40,23 @@ class Growing {
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return members[a].size() > members[b].size();
     });
+    // Told by the grains that were looked at.
+    std::size_t done = 0, told = 0;
+    const auto goes_on = [&](std::size_t more) {
+      done += more;
+      if (done >= told) {
+        context.report(static_cast<double>(done) / static_cast<double>(grains_.size() + 1),
+                       "surfaces");
+        told = done + grains_.size() / 50 + 1;
+      }
+      return !context.cancelled();
+    };
     for (const std::uint32_t a : order) {
-      if (members[a].size() < options_.least) break;
+      if (members[a].size() < options_.least || !goes_on(0)) break;
       grow(members[a]);
       // What it did not explain, from places in it; a place where nothing grew is not tried again.
       for (const std::uint32_t k : members[a]) {
+        if (!goes_on(1)) break;
         if (surface_[k] != no_id || tried_[k]) continue;
         const std::vector<std::uint32_t> seed = window(k);
         grow(seed);
@@ -84,7 +97,7 @@ class Growing {
     if (fitted.misfit > 2.0 * options_.good) return false;
     std::size_t searched = members.size();  // when all types were tried last
     std::vector<std::uint32_t> kept;        // as far as one surface explained all of it
-    for (int round = 0; round < options_.rounds; ++round) {
+    for (int round = 0; round < options_.rounds && !context_.cancelled(); ++round) {
       // From the grain that fits best, so that what is reached hangs together.
       std::uint32_t first = members.front();
       double least = 1e300;
@@ -130,6 +143,7 @@ class Growing {
   const Grains& grains_;
   const SurfaceNoise& noise_;
   const SurfaceGrowingOptions& options_;
+  Context context_;
   std::vector<std::uint32_t> surface_;
   std::vector<std::uint32_t> seen_;
   std::vector<std::uint8_t> tried_;
@@ -176,7 +190,7 @@ Grains make_grains(const FaceTable& table, const FaceRegions& areas,
       if (g != no_id && grains.of_face[f] != no_id && grains.of_face[g] != no_id &&
           grains.of_face[f] != grains.of_face[g])
         pairs.push_back({grains.of_face[f], grains.of_face[g]});
-  std::sort(pairs.begin(), pairs.end());
+  parallel_sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   grains.starts.assign(grains.size() + 1, 0);
   for (const auto& pair : pairs) ++grains.starts[pair[0] + 1];
@@ -187,8 +201,9 @@ Grains make_grains(const FaceTable& table, const FaceRegions& areas,
 }
 
 std::vector<std::uint32_t> grow_surfaces(const Grains& grains, const SurfaceNoise& noise,
-                                         const SurfaceGrowingOptions& options) {
-  return Growing(grains, noise, options).run();
+                                         const SurfaceGrowingOptions& options,
+                                         const Context& context) {
+  return Growing(grains, noise, options).run(context);
 }
 
 std::vector<std::vector<SurfaceSample>> grain_windows(const Grains& grains, std::size_t size) {

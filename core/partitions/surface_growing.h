@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/context.h"
 #include "core/partitions/surface_fit.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/watershed.h"
@@ -39,9 +40,10 @@ struct SurfaceGrowingOptions {
 
 /// Which surface explains each grain: numbers from 0, no_id for none. Surfaces grow from the
 /// largest areas on, as far as the grains they reach agree with them, and are fitted again as they
-/// grow.
+/// grow. Cancelled, it comes back before it is done.
 std::vector<std::uint32_t> grow_surfaces(const Grains& grains, const SurfaceNoise& noise,
-                                         const SurfaceGrowingOptions& options);
+                                         const SurfaceGrowingOptions& options,
+                                         const Context& context = {});
 
 /// The samples of windows of `size` neighbouring grains of one area, side by side.
 std::vector<std::vector<SurfaceSample>> grain_windows(const Grains& grains, std::size_t size);

@@ -105,26 +105,35 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
   }
   const float rise = rise_of(evidence->noise, options);
   Result<NormalJump> jump =
-      measure_normal_jump(mesh, table, normals, options.jump, context.part(0.2, 0.7));
+      measure_normal_jump(mesh, table, normals, options.jump, context.part(0.2, 0.65));
   if (!jump) return tl::unexpected<Error>(jump.error());
   std::vector<std::uint32_t> tubes(table.size(), no_id);
   if (options.tubes) {
-    tubes = find_tight_tubes(mesh, table, normals, *jump, options.tight_tubes);
+    tubes = find_tight_tubes(mesh, table, normals, *jump, options.tight_tubes,
+                             context.part(0.65, 0.75));
+    if (context.cancelled()) return cancelled();
     clear_jump_on(mesh, tubes, *jump);
   }
   LineRegionOptions regions = options.regions;
   regions.first_cut += rise * options.first_cut_rise;
   Result<std::vector<BorderEdge>> borders =
-      find_line_regions(mesh, table, normals, *jump, tubes, regions, context.part(0.7, 0.95));
+      find_line_regions(mesh, table, normals, *jump, tubes, regions, context.part(0.75, 0.95));
   if (!borders) return tl::unexpected<Error>(borders.error());
+  const auto goes_on = [&context](double fraction) {
+    context.report(fraction, "line evidence");
+    return !context.cancelled();
+  };
+  if (!goes_on(0.95)) return cancelled();
   if (options.exact)
     *borders = merge_creases(
         mesh, *borders, find_exact_creases(mesh, curvatures.beta, table, *jump, options.creases));
+  if (!goes_on(0.96)) return cancelled();
   if (options.open) {
     const std::vector<BorderEdge> crests =
         find_crests(mesh, table, *jump, *borders, regions.first_cut, options.crests);
     *borders = merged(*borders, crests);
   }
+  if (!goes_on(0.97)) return cancelled();
   evidence->jump.resize(mesh.edge_count());
   parallel_for(evidence->jump.size(), [&](std::size_t e) {
     evidence->jump[e] = jump->convex[e] ? jump->at_edge[e] : -jump->at_edge[e];
@@ -133,7 +142,9 @@ Result<LineEvidencePtr> gather_line_evidence(const Mesh& mesh, const Curvatures&
     if (border.exact || border.place.value > 0.0F)
       evidence->jump[border.edge] =
           border.place.turn >= 0.0F ? border.place.value : -border.place.value;
+  if (!goes_on(0.98)) return cancelled();
   evidence->candidates = CandidateGraph(mesh, table, std::move(*borders));
+  if (!goes_on(0.99)) return cancelled();
   evidence->measures = as_measures(mesh, *jump, evidence->jump, evidence->candidates.edges());
   context.report(1.0, "line evidence");
   if (context.cancelled()) return cancelled();

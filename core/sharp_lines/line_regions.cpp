@@ -360,9 +360,15 @@ Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTa
   std::vector<BorderEdge> low;
   FaceRegions smooth = regions;
   smooth_borders(table, edge_length, options.smoothing, smooth.of_face);
+  if (context.cancelled()) return cancelled();
+  context.report(0.55, "regions");
   first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(smooth), options, &low);
+  if (context.cancelled()) return cancelled();
+  context.report(0.6, "regions");
   regions =
       first_cut(table, jump.at_edge, edge_length, edge_faces, std::move(regions), options, nullptr);
+  if (context.cancelled()) return cancelled();
+  context.report(0.65, "regions");
   smooth_borders(table, edge_length, options.smoothing, regions.of_face);
   if (set_apart(tubes, regions)) {
     regions = connected_regions(table, regions.of_face);
@@ -371,7 +377,11 @@ Result<std::vector<BorderEdge>> find_line_regions(const Mesh& mesh, const FaceTa
   if (context.cancelled()) return cancelled();
   context.report(0.7, "borders");
   TestedJoining joining(mesh, table, normals, regions, edge_length, options);
+  if (context.cancelled()) return cancelled();
+  context.report(0.8, "borders");
   std::vector<BorderEdge> borders = joining.run();
+  if (context.cancelled()) return cancelled();
+  context.report(0.95, "borders");
   // The same border may be among both, an edge apart.
   const std::vector<std::uint8_t> near = vertices_near(mesh, borders, -1.0F, 1);
   const auto by_edge = [](const BorderEdge& a, const BorderEdge& b) { return a.edge < b.edge; };

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/parallel.h"
+#include "core/base/watched_for.h"
 #include "core/sharp_lines/normal_window.h"
 #include "core/sharp_lines/watershed.h"
 
@@ -142,8 +143,8 @@ class TubeFinder {
 
 std::vector<std::uint32_t> find_tight_tubes(const Mesh& mesh, const FaceTable& table,
                                             const std::vector<Vector3f>& normals,
-                                            const NormalJump& jump,
-                                            const TightTubeOptions& options) {
+                                            const NormalJump& jump, const TightTubeOptions& options,
+                                            const Context& context) {
   std::vector<std::uint32_t> of_face(table.size(), no_id);
   std::vector<VertexId> places;
   for (VertexId v = 0; v < mesh.vertex_count(); ++v)
@@ -164,15 +165,13 @@ std::vector<std::uint32_t> find_tight_tubes(const Mesh& mesh, const FaceTable& t
   const FallingExponential falling;
   PerThread<Local> locals([&] { return Local(table); });
   std::vector<std::optional<Tube>> tubes(places.size());
-  parallel_for(
-      places.size(),
-      [&](std::size_t i) {
-        Local& local = locals.local();
-        faces_at(places[i], local.seeds);
-        tubes[i] = finder.fit_at(local.seeds, table.points[places[i]], local.window, local.scratch,
-                                 falling);
-      },
-      64);
+  const auto fit = [&](std::size_t i) {
+    Local& local = locals.local();
+    faces_at(places[i], local.seeds);
+    tubes[i] =
+        finder.fit_at(local.seeds, table.points[places[i]], local.window, local.scratch, falling);
+  };
+  if (!watched_for(places.size(), context, "walls of holes", fit, 64)) return of_face;
   // The best fits grow first.
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -185,6 +184,7 @@ std::vector<std::uint32_t> find_tight_tubes(const Mesh& mesh, const FaceTable& t
   std::vector<std::uint32_t> seen(table.size(), no_id);
   std::uint32_t stamp = 0;
   for (const std::size_t i : order) {
+    if (context.cancelled()) return of_face;
     faces_at(places[i], seeds);
     if (std::any_of(seeds.begin(), seeds.end(), [&](FaceId f) { return of_face[f] != no_id; }))
       continue;

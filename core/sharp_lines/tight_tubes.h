@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/context.h"
 #include "core/mesh/mesh.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/normal_jump.h"
@@ -23,10 +24,11 @@ struct TightTubeOptions {
 /// none. Windows as wide as those of the jump reach round such a wall and read jumps along it that
 /// are none, so that its rims are not seen; a fit of axis and radius that closes round the axis
 /// tells it as what it is. Walls end where the surface turns to the axis, at rims and bottoms.
+/// Cancelled, it comes back before it is done.
 std::vector<std::uint32_t> find_tight_tubes(const Mesh& mesh, const FaceTable& table,
                                             const std::vector<Eigen::Vector3f>& normals,
-                                            const NormalJump& jump,
-                                            const TightTubeOptions& options);
+                                            const NormalJump& jump, const TightTubeOptions& options,
+                                            const Context& context = {});
 
 /// Takes what windows read along the walls of tubes out of the jump: they are round.
 void clear_jump_on(const Mesh& mesh, const std::vector<std::uint32_t>& tubes, NormalJump& jump);

@@ -101,6 +101,8 @@ TEST_F(UnitOfLengths, IsAskedForOnceBesideThePartAndToldEverywhere) {
   EXPECT_TRUE(question().contains("metres")) << qPrintable(question());
   EXPECT_TRUE(question().contains(" × ") && question().endsWith("?")) << qPrintable(question());
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_LT(bar().height(), 60) << "the room is the part's";
+  EXPECT_GT(window->view().height(), 6 * bar().height());
   // The part is there to be worked on, and nothing says a unit that nobody said.
   run_both();
   ASSERT_GT(document().lines.lines.size(), 0u);

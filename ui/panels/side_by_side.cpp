@@ -31,7 +31,7 @@ SideBySide::SideBySide(QWidget* view, const QColor& marked, QWidget* parent) : Q
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(0);
-  all->addWidget(splitter_);
+  all->addWidget(splitter_, 1);
 
   QPixmap chip(22, 10);
   chip.fill(marked);

@@ -12,6 +12,7 @@ UnitBar::UnitBar(QWidget* parent) : QFrame(parent) {
   setObjectName("unit_bar");
   setFrameShape(QFrame::NoFrame);
   setAutoFillBackground(true);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setAccessibleName(tr("What the lengths of this scan are in"));
   question_ = new QLabel(this);
   // It gives way where there is little room, the answers do not.

@@ -25,14 +25,16 @@ QString text_of(QOpenGLFunctions& functions, GLenum name) {
   return QString::fromLatin1(reinterpret_cast<const char*>(functions.glGetString(name)));
 }
 
-/// What is wrong with the context; empty: nothing.
-QString fault_of(QOpenGLContext& context) {
+/// What is wrong with the context; empty: nothing. `by_processor`: drawing by it would help.
+QString fault_of(QOpenGLContext& context, bool& by_processor) {
   if (!context.create()) return translated("this display offers no OpenGL");
 #if defined(Q_OS_LINUX) && QT_CONFIG(xcb_glx_plugin)
   // Debian's VTK finds the functions of OpenGL through GLX alone.
   if (QGuiApplication::platformName() == "xcb" &&
-      !context.nativeInterface<QNativeInterface::QGLXContext>())
+      !context.nativeInterface<QNativeInterface::QGLXContext>()) {
+    by_processor = false;
     return translated("this display offers OpenGL, but not through GLX, which Arris needs");
+  }
 #endif
   QOffscreenSurface surface;
   surface.setFormat(context.format());
@@ -68,9 +70,10 @@ QString why_no_display() {
   auto* const disconnect = reinterpret_cast<Disconnect*>(::dlsym(library, "xcb_disconnect"));
   if (!connect || !has_error || !disconnect) return {};
   void* const connection = connect(nullptr, nullptr);
-  const bool fails = has_error(connection) != 0;
+  // A good one is never closed: a server like Xvfb begins anew when its last client goes, and would
+  // turn away Qt, which comes next.
+  if (has_error(connection) == 0) return {};
   disconnect(connection);
-  if (!fails) return {};
   const QString name = qEnvironmentVariable("DISPLAY");
   return (name.isEmpty() ? translated("There is no display (DISPLAY is not set)")
                          : translated("The display %1 cannot be reached").arg(name)) +
@@ -82,13 +85,18 @@ QString why_no_display() {
 
 QString why_nothing_can_be_drawn() {
   QOpenGLContext context;
-  const QString fault = fault_of(context);
+  bool by_processor = true;
+  const QString fault = fault_of(context, by_processor);
   if (fault.isEmpty()) return {};
-  return translated(
-             "Arris cannot draw: %1. Draw by the processor instead (LIBGL_ALWAYS_SOFTWARE=1 "
-             "arris), update the graphics driver, or start Arris on the computer's own screen; "
-             "arris-cli works without graphics.")
-      .arg(fault);
+  const QString way_out = by_processor ? translated(
+                                             "Draw by the processor instead "
+                                             "(LIBGL_ALWAYS_SOFTWARE=1 arris), update the graphics "
+                                             "driver, or start Arris on the computer's own screen")
+                                       : translated(
+                                             "Start Arris on the computer's own screen, or through "
+                                             "a remote desktop that has GLX");
+  return translated("Arris cannot draw: %1. %2; arris-cli works without graphics.")
+      .arg(fault, way_out);
 }
 
 QString graphics_text() { return found; }
