@@ -1,11 +1,13 @@
 // arris-cli: the core without a window.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -221,7 +223,8 @@ Result<void> check_results(const ResultPlaces& places) {
     return check_writable((std::filesystem::path(folder) / name).string());
   };
   for (const ResultFile& file : result_files())
-    if (const auto ready = check(file.name); !ready) return ready;
+    if (file.usual)
+      if (const auto ready = check(file.name); !ready) return ready;
   return check(summary_name);
 }
 
@@ -237,7 +240,8 @@ Result<void> write_results(const ResultPlaces& places, const History& history,
     return (std::filesystem::path(folder) / name).string();
   };
   for (const ResultFile& file : result_files())
-    if (auto r = file.write(path(file.name), history); !r) return r;
+    if (file.usual)
+      if (auto r = file.write(path(file.name), history); !r) return r;
   if (!places.session.empty()) {
     SessionExtras extras;
     extras.part = std::filesystem::path(document.scan_path).filename().string();
@@ -409,24 +413,33 @@ Result<std::uint32_t> row_of(const History& history, const std::string& name,
               (known.empty() ? "none is named." : "there is " + known + "."));
 }
 
+/// A session or list of operations run again, at a version of it, in a unit. Errors: it cannot be,
+/// there is no such version, it ends with no part open.
+Result<Replay> replay_at(const std::string& operations, const std::string& scan,
+                         const std::string& version, const std::string& unit) {
+  Result<Replay> done = replay_loudly(operations, scan);
+  if (!done) return done;
+  if (!version.empty()) {
+    const Result<std::uint32_t> row = row_of(done->history, version, operations);
+    if (!row) return tl::unexpected<Error>(row.error());
+    if (const auto moved = done->history.travel(*row, progress_context()); !moved)
+      return tl::unexpected<Error>(moved.error());
+  }
+  if (done->history.current().empty())
+    return fail(operations + " ends with no part open; there is nothing to write.");
+  if (!unit.empty())
+    if (const auto told = done->history.run({"set_unit", {{"unit", unit}}});
+        !told && !told.error().nothing_to_do)
+      return tl::unexpected<Error>(told.error());
+  return done;
+}
+
 int replay_file(const std::string& operations, const std::string& scan, const std::string& version,
                 const std::string& unit, const ResultPlaces& places) {
   if (const auto ready = check_results(places); !ready) return complain(ready.error());
   const auto start = std::chrono::steady_clock::now();
-  Result<Replay> done = replay_loudly(operations, scan);
+  Result<Replay> done = replay_at(operations, scan, version, unit);
   if (!done) return complain(done.error());
-  if (!version.empty()) {
-    const Result<std::uint32_t> row = row_of(done->history, version, operations);
-    if (!row) return complain(row.error());
-    if (const auto moved = done->history.travel(*row, progress_context()); !moved)
-      return complain(moved.error());
-  }
-  if (done->history.current().empty())
-    return complain({operations + " ends with no part open; there is nothing to write.", false});
-  if (!unit.empty())
-    if (const auto told = done->history.run({"set_unit", {{"unit", unit}}});
-        !told && !told.error().nothing_to_do)
-      return complain(told.error());
   nlohmann::json summary = summary_of(done->history);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   summary["seconds"] = {{"replay", rounded(spent.count(), 3)}};
@@ -434,6 +447,39 @@ int replay_file(const std::string& operations, const std::string& scan, const st
   if (const auto written = write_results(places, done->history, summary); !written)
     return complain(written.error());
   print_outcome(places.folder, summary);
+  return 0;
+}
+
+/// The names of what can be exported, each once, or the endings of one of them.
+std::string exports_text(const std::string& what) {
+  std::string text;
+  std::set<std::string_view> listed;
+  for (const ResultFile& file : result_files()) {
+    const std::string_view word = what.empty() ? file.what() : file.ending();
+    if ((!what.empty() && file.what() != what) || !listed.insert(word).second) continue;
+    text += text.empty() ? "" : ", ";
+    text += word;
+  }
+  return text;
+}
+
+int export_file(const std::string& operations, const std::string& scan, const std::string& version,
+                const std::string& unit, const std::string& what, const std::string& output) {
+  const std::string ending =
+      CLI::detail::to_lower(std::filesystem::path(output).extension().string());
+  const auto files = result_files();
+  const auto file = std::ranges::find_if(
+      files, [&](const ResultFile& f) { return f.what() == what && f.ending() == ending; });
+  if (file == files.end())
+    return complain({output + ": " + what + " can be written as " + exports_text(what) +
+                         "; the ending of the file says which.",
+                     false});
+  if (const auto ready = check_writable(output); !ready) return complain(ready.error());
+  const Result<Replay> done = replay_at(operations, scan, version, unit);
+  if (!done) return complain(done.error());
+  if (const auto written = file->write(output, done->history); !written)
+    return complain(written.error());
+  std::cout << file->title << " written to " << output << "\n";
   return 0;
 }
 
@@ -677,9 +723,27 @@ int main(int argc, char** argv) {
   replay_command->add_option("-o,--output", output, "The folder for the results")->required();
   std::string other_scan;
   replay_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
-  add_unit(replay_command);
   std::string at;
   replay_command->add_option("--at", at, "Write the version of this name, not the last state");
+  CLI::App* export_command =
+      app.add_subcommand("export", "Write one thing of a session for another program");
+  std::string what;
+  const std::string exports = exports_text("");
+  export_command
+      ->add_option("OPERATIONS", operations,
+                   "A session (*.arris), or a file of operations, one JSON a line")
+      ->required();
+  export_command->add_option("--what", what, exports)
+      ->required()
+      ->check([&](const std::string& given) {
+        return exports_text(given).empty() ? "one of " + exports : std::string();
+      });
+  export_command->add_option("-o,--output", output, "The file to write; its ending says the format")
+      ->required();
+  export_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
+  export_command->add_option("--at", at, "Write the version of this name, not the last state");
+  for (CLI::App* command : {replay_command, export_command}) add_unit(command);
+
   std::string session;
   for (CLI::App* command : {segment_command, replay_command})
     command->add_option("--session", session,
@@ -749,6 +813,7 @@ int main(int argc, char** argv) {
   if (*simplify_command) return simplify_scan(opening, output, simplification);
   if (*segment_command) return segment(opening, {output, session}, segmentation);
   if (*replay_command) return replay_file(operations, other_scan, at, unit, {output, session});
+  if (*export_command) return export_file(operations, other_scan, at, unit, what, output);
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);
 }

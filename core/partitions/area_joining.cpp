@@ -124,6 +124,11 @@ class AreaJoining {
   double price_of(double misfit, double samples) const {
     return samples * std::min(misfit, static_cast<double>(options_.free));
   }
+  /// Length of a border against its samples: where those are of more faces, it has fewer along it.
+  float border_of_samples(const AreaBorder& border) const {
+    constexpr float usual_grain = 8.0F;
+    return border.sums.length * std::sqrt(usual_grain / static_cast<float>(grain_));
+  }
   float cost_of(const AreaBorder& border, std::uint32_t a, std::uint32_t b) const {
     if (border.line > options_.line_share * (border.sums.length + border.line)) return never;
     if (voting_[a] <= 0.0F || voting_[b] <= 0.0F) return 0.0F;
@@ -136,14 +141,15 @@ class AreaJoining {
     const auto rise = static_cast<float>(price_of(misfit, na + nb) - apart);
     const auto smaller =
         static_cast<float>(std::min({na, nb, static_cast<double>(options_.rise_area)}));
+    const float length = border_of_samples(border);
     const float allowed_rise =
-        options_.rise + options_.rise_each * smaller + options_.rise_border * border.sums.length;
+        options_.rise + options_.rise_each * smaller + options_.rise_border * length;
     const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
                                  ? std::max(0.0F, rise) / allowed_rise
                                  : never;
-    const float by_kink = std::max(
-        cost_by_kink(border, a, b),
-        std::max(0.0F, rise) / (options_.free_rise + options_.free_border * border.sums.length));
+    const float by_kink =
+        std::max(cost_by_kink(border, a, b),
+                 std::max(0.0F, rise) / (options_.free_rise + options_.free_border * length));
     float by_continuation = never;
     if (const double tear = tear_at(border, a, b); tear < 1e9) {
       const double as_chain = price_of(judge_surface(both, noise_, chain_of(a, b)).misfit, na + nb);

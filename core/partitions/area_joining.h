@@ -15,15 +15,16 @@
 
 namespace arris {
 
-/// Lengths in mean edges, angles in degrees, areas in equilateral faces of the mean edge.
+/// Lengths in mean edges, radii for a part of the usual size; angles in degrees, areas in
+/// equilateral faces of the mean edge.
 struct AreaJoiningOptions {
   float same = 1.1F;          // times its area, up to which an area that grows stays what it was
-  std::size_t samples = 128;  // of an area, at most
+  std::size_t samples = 256;  // of an area, at most
   // Misfits are summed up over samples. One surface may take the place of two where it misses no
   // more than this in all, and this for each sample of the smaller area (up to so many), and this
-  // for each mean edge of border that goes.
-  float rise = 10.0F;
-  float rise_each = 1.0F;
+  // for each mean edge of border that goes, of samples of 8 faces.
+  float rise = 15.0F;
+  float rise_each = 1.5F;
   float rise_area = 50.0F;
   float rise_border = 0.6F;
   float free = 2.5F;  // mean misfit at which an area is rather free than of a surface

@@ -11,6 +11,7 @@
 
 #include "core/base/parallel.h"
 #include "core/mesh/geometry.h"
+#include "core/partitions/part_size.h"
 #include "core/partitions/surface_noise.h"
 #include "core/sharp_lines/region_joining.h"
 
@@ -171,6 +172,14 @@ void settle(const Mesh& mesh, AreaTree& tree, FaceTable& table,
   table.neighbours = neighbours;
 }
 
+/// The joining of areas for a part `scale` times as many edges across as usual.
+AreaJoiningOptions scaled(AreaJoiningOptions options, double scale) {
+  options.wide *= static_cast<float>(scale);
+  options.blend *= static_cast<float>(scale);
+  options.continuation = scaled(options.continuation, scale);
+  return options;
+}
+
 /// What each piece holds and lies beside.
 void measure_pieces(const Mesh& mesh, const FaceTable& table, const std::vector<float>& edge_length,
                     AreaTree& tree) {
@@ -286,7 +295,11 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
       smallest_areas(mesh, table, tree.banded, *kinks, edge_length, options.smallest);
   if (context.cancelled()) return cancelled();
   context.report(0.33, "areas");
-  Grains grains = make_grains(table, areas, tree.banded, options.grain);
+  // Grains of a fine scan are larger: a part as such has no more to tell, and what a scan is off by
+  // over long ways is noise of the samples then, too.
+  const double scale = part_size(mesh) / usual_part_size;
+  const int grain = static_cast<int>(options.grain * std::max(1.0, scale));
+  Grains grains = make_grains(table, areas, tree.banded, grain);
   if (context.cancelled()) return cancelled();
   context.report(0.35, "surfaces");
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
@@ -327,8 +340,8 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   const FaceRegions pieces = pieces_of(table, areas, old);
   JoinedAreas joined =
       join_areas({mesh, table, lines, areas, tree.banded, samples_by_area(grains, areas.count),
-                  options.grain, tree.noise, kinks->noise},
-                 options.joining, context.part(0.5, 0.9));
+                  grain, tree.noise, kinks->noise},
+                 scaled(options.joining, scale), context.part(0.5, 0.9));
   if (context.cancelled()) return cancelled();
   context.report(0.9, "pieces");
   tree.joins =

@@ -28,7 +28,7 @@ struct AreaTreeOptions {
   double most_spread = 1.5;  // and angles: above, surfaces have run into one another
   float inner = 0.3F;        // height up to which the pieces of one surface are joined
   SurfaceGrowingOptions growing;
-  int grain = 8;            // faces that make one sample of an area
+  int grain = 8;            // faces that make one sample of an area, more on fine scans
   float distance = 0.01F;   // least noise of a sample along the normal, mean edges
   float angle = 0.3F;       // and across, degrees
   double face_noise = 1.5;  // distance of a face over that of a sample

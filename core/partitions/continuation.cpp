@@ -62,6 +62,12 @@ std::vector<std::vector<SurfaceSample>> parted(std::span<const SurfaceSample> sa
 
 }  // namespace
 
+ContinuationOptions scaled(ContinuationOptions options, double scale) {
+  options.flat *= scale;
+  options.widest *= scale;
+  return options;
+}
+
 double tear_between(const Surface& a, const Surface& b, const Eigen::Vector3d& place,
                     const ContinuationOptions& options) {
   double least = std::numeric_limits<double>::infinity();

@@ -23,6 +23,9 @@ struct ContinuationOptions {
   double apart = 0.2;  // by which a stretch's radius differs from that of the blend at most, share
 };
 
+/// The same radii on a part `scale` times as many mean edges across (part_size).
+ContinuationOptions scaled(ContinuationOptions options, double scale);
+
 /// How badly two surfaces continue one another at a place where they meet: 1 where their normals
 /// or curvatures differ by the most that is allowed. Infinite where both are flat or one is free.
 double tear_between(const Surface& a, const Surface& b, const Eigen::Vector3d& place,

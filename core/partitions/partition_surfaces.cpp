@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/continuation.h"
+#include "core/partitions/part_size.h"
 #include "core/simplification/noise.h"
 
 namespace arris {
@@ -25,12 +26,12 @@ constexpr double most_misfit = 6.0;
 /// Misfit from which on a blend may be the better answer, and up to which share of it it is.
 constexpr double doubtful = 2.0, better_blend = 0.7;
 /// Any smooth area is a torus of some kind for a while. Blends are what is one: a tube of up to so
-/// many mean edges about a ring that is wider.
+/// many mean edges, on a part of the usual size, about a ring that is wider.
 constexpr double widest_blend = 15.0;
 
-bool says_nothing(const Surface& surface) {
+bool says_nothing(const Surface& surface, double scale) {
   return surface.type == SurfaceType::torus &&
-         (surface.tube > widest_blend || surface.tube > surface.radius);
+         (surface.tube > scale * widest_blend || surface.tube > surface.radius);
 }
 
 struct Member {
@@ -89,6 +90,8 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
   const double unit = mesh.mean_edge_length() > 0.0 ? mesh.mean_edge_length() : 1.0;
   const double relative = std::max(estimate_noise(mesh) / unit, 0.01);
   const SurfaceNoise noise{relative, std::max(relative, 0.3 * std::numbers::pi / 180.0)};
+  const double scale = part_size(mesh) / usual_part_size;
+  const ContinuationOptions continuation = scaled({}, scale);
   parallel_for(
       members.size(),
       [&](std::size_t k) {
@@ -113,10 +116,11 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.steps = 12;
         options.near = options.most;
         FittedSurface fit = fit_surface(samples, noise, options);
-        bool explained = fit.misfit <= most_misfit && !says_nothing(fit.surface);
+        bool explained = fit.misfit <= most_misfit && !says_nothing(fit.surface, scale);
         if (!explained || fit.misfit > doubtful)
           if (const std::optional<FittedSurface> blend =
-                  fit_blend(samples, noise, explained ? better_blend * fit.misfit : most_misfit)) {
+                  fit_blend(samples, noise, explained ? better_blend * fit.misfit : most_misfit,
+                            continuation)) {
             fit = *blend;
             explained = true;
           }

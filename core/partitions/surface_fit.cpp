@@ -137,70 +137,108 @@ class Fitting {
     judge(surface);
   }
 
+  /// How the signed distance at p and the normal there change with the place of the surface along
+  /// x, y and its axis, its tilt about the middle of the samples, radius, tube and half angle.
+  struct Changes {
+    std::array<double, 8> distance;
+    std::array<Vector3d, 8> normal;
+  };
+  void changes_at(const Surface& surface, const std::array<Vector3d, 3>& frame, const Vector3d& p,
+                  const Surface::At& at, Changes& by) const {
+    const Matrix3d bend = surface.bend_at(p);
+    // A surface that is moved is the surface as p moves the other way.
+    for (std::size_t k = 0; k < 3; ++k) {
+      by.distance[k] = -at.normal.dot(frame[k]);
+      by.normal[k] = -bend * frame[k];
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vector3d turn = surface.axis.cross(frame[k]);
+      const Vector3d way = turn.cross(p - moments_.centre);
+      by.distance[3 + k] = -at.normal.dot(way);
+      by.normal[3 + k] = turn.cross(at.normal) - bend * way;
+    }
+    for (std::size_t k = 5; k < 8; ++k) {
+      by.distance[k] = -surface.side;
+      by.normal[k].setZero();
+    }
+    const Vector3d d = p - surface.point;
+    Vector3d out = d - d.dot(surface.axis) * surface.axis;
+    if (const double length = out.norm(); length > 0.0) out /= length;
+    if (surface.type == SurfaceType::torus) {
+      const Vector3d from_tube = surface.side * at.normal;
+      const double reach = surface.side * at.distance + surface.tube;
+      by.distance[5] = -surface.side * from_tube.dot(out);
+      if (reach > 0.0)
+        by.normal[5] = -surface.side / reach * (out - from_tube.dot(out) * from_tube);
+    }
+    if (surface.type == SurfaceType::cone) {
+      by.normal[7] = std::cos(surface.half_angle) * surface.axis -
+                     surface.side * std::sin(surface.half_angle) * out;
+      by.distance[7] = d.dot(by.normal[7]);
+    }
+  }
+
   /// A step of Gauss and Newton on distances and normals, far samples counting less.
   /// `mean`: the misfit that it started from. False where it leads to no such surface.
   bool improve(Surface& surface, std::size_t stride, double& mean) const {
     using Row = Eigen::Matrix<double, 8, 1>;
-    Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Zero();
-    Row right = Row::Zero();
     const double by_distance = 1.0 / noise_.distance, by_angle = 1.0 / noise_.angle;
-    const double size = std::max(std::sqrt(moments_.points.trace()), 1e-9);
-    // Shift along three axes, tilt about two, radius, tube and half angle: those the surface has.
     const auto [x, y] = tangents(surface.axis);
-    std::array<Surface, 8> moved;
+    const std::array<Vector3d, 3> frame{x, y, surface.axis};
     std::array<bool, 8> has{true, true, true, true, true, true, false, false};
-    const double shift = 1e-4 * size, tilt = 1e-4;
-    std::array<double, 8> by{shift, shift, shift, tilt, tilt, shift, shift, tilt};
     has[3] = has[4] = surface.type != SurfaceType::sphere;
     has[5] = surface.type != SurfaceType::cone;
     has[6] = surface.type == SurfaceType::torus;
     has[7] = surface.type == SurfaceType::cone;
-    for (std::size_t k = 0; k < 8; ++k) {
-      moved[k] = surface;
-      if (k < 3) moved[k].point += shift * (k == 0 ? x : k == 1 ? y : surface.axis);
-      if (k == 3) moved[k].axis = turned(surface, tilt * x, moved[k].point);
-      if (k == 4) moved[k].axis = turned(surface, tilt * y, moved[k].point);
-      if (k == 5) moved[k].radius += shift;
-      if (k == 6) moved[k].tube += shift;
-      if (k == 7) moved[k].half_angle += tilt;
-    }
+    std::array<std::size_t, 8> active{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 8; ++k)
+      if (has[k]) active[count++] = k;
     const auto misfit = [&](const Surface::At& at, const Vector3d& off) {
       return at.distance * at.distance * by_distance * by_distance +
              0.5 * off.squaredNorm() * by_angle * by_angle;
     };
     // Far is what is far beside the others, so that a bad start does not count as all outliers.
-    double far = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < samples_.size(); i += stride, ++count) {
-      const Surface::At at = surface.at(samples_[i].point);
-      far += misfit(at, at.normal - samples_[i].normal);
-    }
-    mean = far / count;
-    far = options_.most * std::max(1.0, mean);
+    std::vector<Surface::At>& places = places_;
+    places.clear();
+    double far = 0.0;
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
+      places.push_back(surface.at(samples_[i].point));
+      far += misfit(places.back(), places.back().normal - samples_[i].normal);
+    }
+    mean = far / static_cast<double>(places.size());
+    far = options_.most * std::max(1.0, mean);
+    std::array<std::array<double, 8>, 8> upper{};
+    std::array<double, 8> falls{};
+    Changes by;
+    for (std::size_t i = 0, place = 0; i < samples_.size(); i += stride, ++place) {
       const SurfaceSample& s = samples_[i];
-      const Surface::At at = surface.at(s.point);
+      const Surface::At& at = places[place];
       const Vector3d off = at.normal - s.normal;
       const double chi = misfit(at, off);
       const double w = s.weight * (chi > far ? far / chi : 1.0);
-      Row distance = Row::Zero();
-      std::array<Row, 3> normal{Row::Zero(), Row::Zero(), Row::Zero()};
-      for (int k = 0; k < 8; ++k) {
-        const auto at_k = static_cast<std::size_t>(k);
-        if (!has[at_k]) continue;
-        const Surface::At other = moved[at_k].at(s.point);
-        distance[k] = (other.distance - at.distance) / by[at_k] * by_distance;
-        const Vector3d change = (other.normal - at.normal) / by[at_k] * by_angle;
-        for (std::size_t c = 0; c < 3; ++c) normal[c][k] = change[static_cast<Eigen::Index>(c)];
+      const double wd = w * by_distance * by_distance, wn = w * by_angle * by_angle;
+      changes_at(surface, frame, s.point, at, by);
+      for (std::size_t a = 0; a < count; ++a) {
+        const std::size_t j = active[a];
+        const double dj = wd * by.distance[j];
+        const Vector3d nj = wn * by.normal[j];
+        falls[a] -= dj * at.distance + nj.dot(off);
+        for (std::size_t b = a; b < count; ++b)
+          upper[a][b] += dj * by.distance[active[b]] + nj.dot(by.normal[active[b]]);
       }
-      gram.noalias() += w * distance * distance.transpose();
-      right -= w * at.distance * by_distance * distance;
-      for (std::size_t c = 0; c < 3; ++c) {
-        gram.noalias() += w * normal[c] * normal[c].transpose();
-        right -= w * off[static_cast<Eigen::Index>(c)] * by_angle * normal[c];
+    }
+    Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Identity();
+    Row right = Row::Zero();
+    for (std::size_t a = 0; a < count; ++a) {
+      const auto j = static_cast<Eigen::Index>(active[a]);
+      right[j] = falls[a];
+      for (std::size_t b = a; b < count; ++b) {
+        const auto k = static_cast<Eigen::Index>(active[b]);
+        gram(j, k) = gram(k, j) = upper[a][b];
       }
     }
     for (int k = 0; k < 8; ++k) {
-      if (!has[static_cast<std::size_t>(k)]) gram(k, k) = 1.0;
       gram(k, k) *= 1.0 + 1e-6;
       gram(k, k) += 1e-12 * gram.trace();
     }
@@ -436,6 +474,7 @@ class Fitting {
   const SurfaceFitOptions& options_;
   Moments moments_;
   FittedSurface best_;
+  mutable std::vector<Surface::At> places_;  // of the samples that are read, kept for its memory
 };
 
 const Surface& nearest_part(const std::vector<Surface>& parts, const Vector3d& p) {

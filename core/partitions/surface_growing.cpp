@@ -228,12 +228,22 @@ std::vector<std::vector<SurfaceSample>> grain_windows(const Grains& grains, std:
 
 std::vector<SurfaceSample> thinned(std::vector<SurfaceSample> samples, std::size_t most) {
   if (samples.size() <= most) return samples;
+  double sum = 0.0;
+  for (const SurfaceSample& s : samples) sum += s.weight;
+  // Each stands for the same share of the whole weight, however often samples are thinned.
+  const double share = sum / static_cast<double>(most);
   std::vector<SurfaceSample> result;
   result.reserve(most);
-  const double more = static_cast<double>(samples.size()) / static_cast<double>(most);
-  for (std::size_t k = 0; k < most; ++k) {
-    result.push_back(samples[k * samples.size() / most]);
-    result.back().weight *= more;
+  // From a place that is another one each time, or the last samples would never be among them.
+  constexpr double golden = 0.6180339887498949;
+  double next = share * std::fmod(golden * sum, 1.0), reached = 0.0;
+  for (const SurfaceSample& s : samples) {
+    reached += s.weight;
+    double own = 0.0;
+    for (; next <= reached && next < sum; next += share) own += share;
+    if (own <= 0.0) continue;
+    result.push_back(s);
+    result.back().weight = own;
   }
   return result;
 }

@@ -10,7 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/base/thread_limit.h"
-#include "core/document/export.h"
+#include "core/document/curve_files.h"
 #include "core/document/operation.h"
 #include "core/document/treatments/treatments.h"
 #include "tests/support/documents.h"
@@ -568,8 +568,8 @@ TEST_F(Operations, SameOperationsGiveTheSameHashOnAnyNumberOfThreads) {
       document = applied(document, operation);
       hashes.push_back(hash_of(document));
     }
-    hashes.push_back(lines_obj(document));
-    hashes.push_back(boundaries_obj(document));
+    hashes.push_back(curves_obj(handed_lines(document)));
+    hashes.push_back(curves_obj(handed_boundaries(document)));
     return hashes;
   };
   const std::vector<std::string> one = run(1);

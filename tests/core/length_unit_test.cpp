@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/curvature/fields.h"
+#include "core/document/curve_files.h"
 #include "core/document/document.h"
 #include "core/document/document_bytes.h"
-#include "core/document/export.h"
 #include "core/document/history.h"
 #include "core/document/journal.h"
 #include "core/guidance/worklist.h"
@@ -199,11 +199,12 @@ TEST_F(UnitOfAPart, ChangesNothingButHowResultsAreTold) {
   EXPECT_EQ(inches.mesh->hash(), plain.mesh->hash());
   EXPECT_EQ(inches.lines.edges.hash(), plain.lines.edges.hash());
   EXPECT_EQ(inches.partitions.labels.hash(), plain.partitions.labels.hash());
-  EXPECT_EQ(without_comment(lines_obj(inches)), without_comment(lines_obj(plain)));
-  EXPECT_EQ(without_comment(boundaries_obj(inches)), without_comment(boundaries_obj(plain)));
-  EXPECT_EQ(lines_obj(inches).substr(0, lines_obj(inches).find('\n')),
-            "# Arris; lengths in inches");
-  EXPECT_EQ(lines_obj(plain).find("mm"), std::string::npos);
+  for (const auto curves : {handed_lines, handed_boundaries})
+    EXPECT_EQ(without_comment(curves_obj(curves(inches))),
+              without_comment(curves_obj(curves(plain))));
+  const std::string in_inches = curves_obj(handed_lines(inches));
+  EXPECT_EQ(in_inches.substr(0, in_inches.find('\n')), "# Arris; lengths in inches");
+  EXPECT_EQ(curves_obj(handed_lines(plain)).find("mm"), std::string::npos);
 
   const auto items = value_of(worklist(plain)), same = value_of(worklist(inches));
   ASSERT_EQ(items.size(), same.size());

@@ -92,7 +92,7 @@ class MainWindow : public QMainWindow {
   void make_status_bar();
   void choose_file();
   void choose_picture();
-  void choose_results_folder();
+  void export_results();
   /// Saves the session where it is; asks where it is to be only where it is nowhere. It goes on
   /// meanwhile. False: nobody said where.
   bool save();

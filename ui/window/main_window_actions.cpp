@@ -71,7 +71,7 @@ void MainWindow::make_file_menu() {
   });
   export_ = action(file, tr("&Export results…"), QKeySequence("Ctrl+E"),
                    tr("Write lines, boundaries, labelled scan and operations into a folder"));
-  connect(export_, &QAction::triggered, this, &MainWindow::choose_results_folder);
+  connect(export_, &QAction::triggered, this, &MainWindow::export_results);
   file->addSeparator();
   connect(action(file, tr("&Quit"), QKeySequence::Quit, tr("Close Arris")), &QAction::triggered,
           this, &QWidget::close);

@@ -21,6 +21,7 @@
 #include "core/samples/mould.h"
 #include "ui/panels/controls.h"
 #include "ui/panels/start_page.h"
+#include "ui/window/export_dialog.h"
 #include "ui/window/main_window.h"
 #include "ui/window/picture_dialog.h"
 
@@ -299,39 +300,35 @@ void MainWindow::choose_picture() {
     QMessageBox::warning(this, "Arris", error);
 }
 
-void MainWindow::choose_results_folder() {
-  QSettings settings;
-  const QString folder = QFileDialog::getExistingDirectory(
-      this, tr("Folder for lines, boundaries, labelled scan and operations"),
-      settings.value("folders/results").toString());
-  if (folder.isEmpty()) return;
-  settings.setValue("folders/results", folder);
+void MainWindow::export_results() {
   // Named by the part, so that results of several parts fit into one folder.
-  const QString part = QFileInfo(session_->part_name()).completeBaseName();
-  const auto name = [&](const ResultFile& file) {
-    return part + "_" + QString::fromUtf8(file.name.data(), qsizetype(file.name.size()));
+  ExportDialog dialog(QFileInfo(session_->part_name()).completeBaseName() + "_", this);
+  if (dialog.exec() != QDialog::Accepted) return;
+  const std::vector<const ResultFile*> files = dialog.chosen();
+  const auto path = [&](const ResultFile& file) {
+    return QDir(dialog.folder()).filePath(dialog.name_of(file));
   };
-  const auto path = [&](const ResultFile& file) { return QDir(folder).filePath(name(file)); };
   QStringList all, there;
-  for (const ResultFile& file : result_files()) {
-    all << name(file);
-    if (QFileInfo::exists(path(file))) there << name(file);
+  for (const ResultFile* file : files) {
+    all << dialog.name_of(*file);
+    if (QFileInfo::exists(path(*file))) there << dialog.name_of(*file);
   }
   if (!there.isEmpty()) {
     QMessageBox box(QMessageBox::Question, "Arris",
                     tr("Replace what was exported to this folder before?"), QMessageBox::NoButton,
                     this);
-    box.setInformativeText(tr("%1 in %2 would be replaced.").arg(there.join(", "), folder));
+    box.setInformativeText(
+        tr("%1 in %2 would be replaced.").arg(there.join(", "), dialog.folder()));
     QPushButton* replace = box.addButton(tr("Replace"), QMessageBox::AcceptRole);
     box.addButton(QMessageBox::Cancel);
     box.exec();
     if (box.clickedButton() != replace) return;
   }
   Result<void> written;
-  for (const ResultFile& file : result_files())
-    if (written) written = file.write(path(file).toStdString(), session_->history());
+  for (const ResultFile* file : files)
+    if (written) written = file->write(path(*file).toStdString(), session_->history());
   if (written)
-    statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), folder), 8000);
+    statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), dialog.folder()), 8000);
   else
     QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
 }
