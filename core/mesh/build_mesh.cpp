@@ -583,7 +583,7 @@ class Builder {
 
   /// Now and then: tells how far it is, and whether it goes on.
   bool goes_on(std::size_t done, std::size_t of, double from, double to) const {
-    constexpr std::size_t pause = std::size_t{1} << 17;
+    constexpr std::size_t pause = std::size_t{1} << 15;
     if (done % pause != 0) return true;
     context_.report(from + (to - from) * static_cast<double>(done) / static_cast<double>(of),
                     "building the mesh");

@@ -217,12 +217,18 @@ class AreaJoining {
     for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
     const auto measure = [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); };
     if (!watched_for(pairs.size(), context.part(0.1, 0.9), "areas", measure, 16)) return;
+    std::size_t joined = 0;  // at most all but one
     joining.run(
         height,
         [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
           return known_cost(border, a, b);
         },
         [&](const auto& join, const AreaBorder& border) {
+          constexpr std::size_t pause = 64;
+          if (++joined % pause == 0)
+            context.report(
+                0.9 + 0.1 * static_cast<double>(joined) / static_cast<double>(parent_.size()),
+                "areas");
           this->join(join.into, join.gone, join.height, border);
         });
   }

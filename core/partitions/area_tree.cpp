@@ -307,10 +307,11 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
   const SurfaceNoise near_noise = tree.noise;
   const FaceRegions old = areas;
+  const double rounds = std::max(options.growths, 1);
   for (int round = 1;; ++round) {
-    const std::vector<std::uint32_t> grown =
-        grow_surfaces(grains, tree.noise, options.growing,
-                      context.part(round == 1 ? 0.35 : 0.43, round == 1 ? 0.43 : 0.5));
+    const std::vector<std::uint32_t> grown = grow_surfaces(
+        grains, tree.noise, options.growing,
+        context.part(0.35 + 0.15 * (round - 1) / rounds, 0.35 + 0.15 * round / rounds));
     if (context.cancelled()) return cancelled();
     // Over whole surfaces a scan is farther off than over a few edges: with the noise that they
     // show they grow again, until it stays.

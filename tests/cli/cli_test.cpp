@@ -214,6 +214,17 @@ TEST_F(Cli, InfoTellsWhatTheScanHolds) {
   EXPECT_EQ(report["content_hash"].get<std::string>().size(), 32u);
 }
 
+// As little memory as this process may have: refused before it is tried.
+TEST_F(Cli, APartThatNeedsMoreMemoryThanThereIsIsRefused) {
+  const std::string part = write_mesh(folder, "part.ply", random_terrain(1100, 3));
+  const Outcome outcome = run({"info", part}, "ulimit -v 500000;");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("triangles needs about 0.6 GB of memory; this computer has 0.5 GB."),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+}
+
 // Said by nobody, it is not said; and there is a way to say it.
 TEST_F(Cli, AUnitIsToldWhereItIsKnownAndAskedForWhereItIsNot) {
   const std::string part = small_part();
