@@ -21,6 +21,11 @@ Distribution::Distribution(const std::vector<double>& values, const std::vector<
     values_.push_back(value);
     cumulative_.push_back(sum);
   }
+  if (!std::isfinite(sum)) {  // areas of a part too large for them: all count alike
+    sum = static_cast<double>(cumulative_.size());
+    for (std::size_t k = 0; k < cumulative_.size(); ++k)
+      cumulative_[k] = static_cast<double>(k + 1);
+  }
   if (sum > 0.0)
     for (double& share : cumulative_) share /= sum;
 }

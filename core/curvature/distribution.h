@@ -10,7 +10,8 @@ namespace arris {
 class Distribution {
  public:
   Distribution() = default;
-  /// `values` and `weights` (>= 0) of one length.
+  /// `values` and `weights` (>= 0) of one length. Where the weights are too large to be added, all
+  /// values count alike.
   Distribution(const std::vector<double>& values, const std::vector<double>& weights);
 
   bool empty() const { return values_.empty(); }

@@ -1,6 +1,7 @@
 #include "core/document/document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_set>
 
@@ -265,7 +266,7 @@ double assigned_share(const Document& document) {
     all += area;
     if (document.partitions.labels[f] != 0) assigned += area;
   }
-  return all > 0.0 ? assigned / all : 0.0;
+  return all > 0.0 && std::isfinite(all) ? assigned / all : 0.0;  // too large to be added: 0
 }
 
 }  // namespace arris

@@ -79,6 +79,7 @@ class Reader {
   template <class T>
   std::vector<T> values() {
     std::vector<T> list(count(sizeof(T)));
+    if (list.empty()) return list;  // which has no place that could be copied to
     std::memcpy(static_cast<void*>(list.data()), rest_.data(), list.size() * sizeof(T));
     rest_.remove_prefix(list.size() * sizeof(T));
     return list;

@@ -38,6 +38,9 @@ double ParameterReader::real(const std::string& name, double otherwise, double l
       fault(name, "a number from " + number_text(least) + " to " + number_text(most));
     else
       value = given->get<double>();
+  } else if (!std::isfinite(value) || value < least || value > most) {
+    // What a part of absurd size suggests: a journal can hold no number that is infinite or none.
+    value = value > most && std::isfinite(most) ? most : least;
   }
   resolved_[name] = value;
   return value;

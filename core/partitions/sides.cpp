@@ -184,7 +184,7 @@ BorderLoop loop_through(const Mesh& mesh, const Borders& borders, HalfEdgeId fir
 /// as edges, since a vertex that it touches twice belongs to two fans of faces.
 void complete(const Mesh& mesh, Outline& outline, std::size_t faces, std::size_t inner_vertices) {
   const auto rank = [&](const BorderLoop& loop) {
-    return std::pair(-std::llround(loop.length / mesh.mean_edge_length() * 1e6),
+    return std::pair(std::llround(-loop.length / mesh.mean_edge_length() * 1e6),
                      loop.half_edges.front());
   };
   std::ranges::sort(outline.loops, {}, rank);
@@ -274,7 +274,7 @@ double four_sided_share(const Partitions& partitions, const std::vector<Outline>
     all += area;
     if (outlines[k].is_four_sided()) four_sided += area;
   }
-  return all > 0.0 ? four_sided / all : 0.0;
+  return all > 0.0 && std::isfinite(all) ? four_sided / all : 0.0;
 }
 
 }  // namespace arris

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <stop_token>
 
 #include "core/base/random.h"
@@ -75,6 +76,11 @@ struct CornerCase {
   std::array<int, 3> sectors;
   double ik1, ikabs, tolerance;
 };
+
+/// Otherwise GoogleTest prints the bytes of the case, which are not all of them set.
+void PrintTo(const CornerCase& c, std::ostream* out) {
+  *out << "sectors " << c.sectors[0] << " " << c.sectors[1] << " " << c.sectors[2];
+}
 
 class BoxCorner : public ::testing::TestWithParam<CornerCase> {};
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -24,6 +25,8 @@ struct RealMesh {
   const char* name;
   std::uint64_t vertices, faces;  // as in the file
 };
+
+void PrintTo(const RealMesh& mesh, std::ostream* out) { *out << mesh.name; }
 
 class RealData : public ::testing::TestWithParam<RealMesh> {};
 

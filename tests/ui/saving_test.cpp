@@ -21,6 +21,7 @@
 #include "tests/support/documents.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/start_page.h"
+#include "ui/window/export_dialog.h"
 
 namespace arris::ui {
 namespace {
@@ -609,7 +610,10 @@ TEST_F(Saving, ExportIsNamedByThePartAndAsksBeforeItReplaces) {
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
   };
   const auto export_again = [&] {
-    choose(folder.path());
+    when_asked<ExportDialog>([&](ExportDialog* dialog) {
+      dialog->findChild<QLineEdit*>("export_folder")->setText(folder.path());
+      dialog->accept();
+    });
     press(*window, QKeySequence("Ctrl+E"));
   };
   export_again();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include <QFontMetrics>
 #include <QImage>
@@ -245,8 +244,8 @@ HistogramChart::Layout HistogramChart::layout() const {
       left += widths[i] + gap;
     }
     int right = widget->width() - margin;
-    for (const int i : members | std::views::reverse) {
-      QRect& label = result.labels[i];
+    for (auto member = members.rbegin(); member != members.rend(); ++member) {
+      QRect& label = result.labels[*member];
       if (label.x() + label.width() > right) label.moveLeft(right - label.width());
       right = label.x() - gap;
     }

@@ -74,10 +74,7 @@ ExportDialog::ExportDialog(QString prefix, QWidget* parent)
   connect(files_, &QListWidget::itemChanged, this, &ExportDialog::update_buttons);
   connect(folder_, &QLineEdit::textChanged, this, &ExportDialog::update_buttons);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  connect(buttons, &QDialogButtonBox::accepted, this, [this] {
-    remember();
-    accept();
-  });
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   update_buttons();
 }
 
@@ -107,12 +104,13 @@ void ExportDialog::update_buttons() {
                                          : QString());
 }
 
-void ExportDialog::remember() const {
+void ExportDialog::accept() {
   QStringList names;
   for (const ResultFile* file : chosen()) names << text_of(file->name);
   QSettings settings;
   settings.setValue("export/files", names);
   settings.setValue("folders/results", folder());
+  QDialog::accept();
 }
 
 }  // namespace arris::ui

@@ -25,11 +25,12 @@ class ExportDialog : public QDialog {
   /// The name of a file, without its folder.
   QString name_of(const ResultFile& file) const;
 
+  void accept() override;  ///< Remembers both.
+
  private:
   void choose_folder();
   /// Only what can be done can be pressed.
   void update_buttons();
-  void remember() const;
 
   QString prefix_;
   QListWidget* files_;
