@@ -43,8 +43,9 @@ std::vector<VertexId> applied(const Weld& weld, const std::vector<VertexId>& cor
 /// (two along each axis, and some).
 constexpr double steps_apart = 4.0;
 
-/// What opening a part takes of memory at most, measured on millions of triangles: its file's
-/// polygons, the mesh, its curvatures and what is needed on the way there.
+/// What opening a part takes of memory at least: its file's polygons, the mesh and its curvatures.
+/// Segmenting takes more (680 bytes a triangle at five millions): what cannot even be opened is
+/// refused before it is tried.
 constexpr std::uint64_t bytes_per_triangle = 250;
 
 /// Builds the mesh of the vertices that remain when those on one place are joined.

@@ -86,6 +86,7 @@ class Operations : public ::testing::Test {
         {"equilateralize", json::object()},
         {"smooth_curvature", json::object()},
         {"smooth_curvature", {{"passes", 4}}},
+        {"set_unit", {{"unit", "in"}}},
         {"find_partitions", json::object()},
         {"find_partitions",
          {{"criterion", "ikabs"}, {"intervals", {{0, 0.5}, {0.5, nullptr}}}, {"min_faces", 2}}}};

@@ -58,7 +58,7 @@ UnitPresenter::UnitPresenter(Session* session, UnitBar* bar, QObject* parent)
   });
   connect(session_, &Session::busy_changed, this, [this](bool busy) {
     bar_->set_answerable(!busy);
-    if (units_) units_->setEnabled(!busy && !session_->current().document.empty());
+    update_actions();
   });
 }
 
@@ -75,7 +75,6 @@ void UnitPresenter::add_actions(QMenu* menu) {
     units_->addAction(a);
     connect(a, &QAction::triggered, this, [this, unit = info.unit] { tell(unit); });
   }
-  units_->setEnabled(false);
   refresh();
 }
 
@@ -96,12 +95,22 @@ void UnitPresenter::tell(LengthUnit unit) {
   session_->run({Operation{"set_unit", {{"unit", key}}}});
 }
 
-void UnitPresenter::refresh() {
+void UnitPresenter::update_actions() {
+  if (!units_) return;
   const Document& document = session_->current().document;
   const LengthUnit unit = length_unit_of(document);
-  if (units_)
-    for (QAction* a : units_->actions())
-      a->setChecked(!document.empty() && a->data().toInt() == static_cast<int>(unit));
+  const bool part = !document.empty();
+  for (QAction* a : units_->actions()) {
+    a->setChecked(part && a->data().toInt() == static_cast<int>(unit));
+    set_available(a, part && !session_->busy(),
+                  part ? tr("Wait until the work that runs is done.") : tr("Open a part first."));
+  }
+}
+
+void UnitPresenter::refresh() {
+  update_actions();
+  const Document& document = session_->current().document;
+  const LengthUnit unit = length_unit_of(document);
   const bool ask = !document.empty() && unit == LengthUnit::unknown && !document.unit &&
                    answered_ != scan() && !is_dismissed();
   if (!ask) {

@@ -26,6 +26,8 @@ class UnitPresenter : public QObject {
   void add_actions(QMenu* menu);
 
  private:
+  /// Which unit is ticked, and whether another can be.
+  void update_actions();
   void refresh();
   void tell(LengthUnit unit);
   /// The scan of the part, by what is in its file.
