@@ -139,8 +139,7 @@ TEST_F(UnitOfLengths, IsAskedForOnceBesideThePartAndToldEverywhere) {
 
   // It is kept in the session.
   const QString session = folder.filePath("part.arris");
-  window->session().save(session, {},
-                         [](const Result<void>& written) { EXPECT_TRUE(written); });
+  window->session().save(session, {}, [](const Result<void>& written) { EXPECT_TRUE(written); });
   window->session().wait_until_saved();
   open(session);
   EXPECT_EQ(length_unit_of(document()), LengthUnit::metre);

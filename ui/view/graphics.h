@@ -6,8 +6,8 @@
 /// the program where they do not find it.
 namespace arris::ui {
 
-/// Before there is a QApplication: empty, or in one sentence why no window can be shown, and the way
-/// out.
+/// Before there is a QApplication: empty, or in one sentence why no window can be shown, and the
+/// way out.
 QString why_no_display();
 
 /// Once there is one: empty, or why nothing can be drawn, and the way out. Makes a small OpenGL

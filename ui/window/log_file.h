@@ -7,8 +7,8 @@
 
 namespace arris::ui {
 
-/// A text file of lines, each with its time, that is put aside once it is large: NAME, and before it
-/// NAME.1, NAME.2, ... of which the last few are kept. What cannot be written is no fault.
+/// A text file of lines, each with its time, that is put aside once it is large: NAME, and before
+/// it NAME.1, NAME.2, ... of which the last few are kept. What cannot be written is no fault.
 class LogFile {
  public:
   explicit LogFile(QString path, qint64 most_bytes = 1 << 20, int kept = 3);

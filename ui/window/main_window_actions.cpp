@@ -253,8 +253,9 @@ void MainWindow::make_help_menu() {
             if (!session_->current().document.empty()) stack_->setCurrentWidget(side_by_side_);
             tour_->take();
           });
-  connect(action(help, tr("&About Arris"), {}, tr("What Arris is, what it is made of and where its log lies; a report to copy")), &QAction::triggered, this,
-          &MainWindow::show_about);
+  connect(action(help, tr("&About Arris"), {},
+                 tr("What Arris is, what it is made of and where its log lies; a report to copy")),
+          &QAction::triggered, this, &MainWindow::show_about);
 }
 
 void MainWindow::make_tool_bars() {
