@@ -180,7 +180,7 @@ class Fitting {
 
   /// A step of Gauss and Newton on distances and normals, far samples counting less.
   /// `mean`: the misfit that it started from. False where it leads to no such surface.
-  bool improve(Surface& surface, std::size_t stride, double& mean) const {
+  bool improve(Surface& surface, std::size_t stride, double& mean) {
     using Row = Eigen::Matrix<double, 8, 1>;
     const double by_distance = 1.0 / noise_.distance, by_angle = 1.0 / noise_.angle;
     const auto [x, y] = tangents(surface.axis);
@@ -199,21 +199,20 @@ class Fitting {
              0.5 * off.squaredNorm() * by_angle * by_angle;
     };
     // Far is what is far beside the others, so that a bad start does not count as all outliers.
-    std::vector<Surface::At>& places = places_;
-    places.clear();
+    places_.clear();
     double far = 0.0;
     for (std::size_t i = 0; i < samples_.size(); i += stride) {
-      places.push_back(surface.at(samples_[i].point));
-      far += misfit(places.back(), places.back().normal - samples_[i].normal);
+      places_.push_back(surface.at(samples_[i].point));
+      far += misfit(places_.back(), places_.back().normal - samples_[i].normal);
     }
-    mean = far / static_cast<double>(places.size());
+    mean = far / static_cast<double>(places_.size());
     far = options_.most * std::max(1.0, mean);
     std::array<std::array<double, 8>, 8> upper{};
     std::array<double, 8> falls{};
     Changes by;
     for (std::size_t i = 0, place = 0; i < samples_.size(); i += stride, ++place) {
       const SurfaceSample& s = samples_[i];
-      const Surface::At& at = places[place];
+      const Surface::At& at = places_[place];
       const Vector3d off = at.normal - s.normal;
       const double chi = misfit(at, off);
       const double w = s.weight * (chi > far ? far / chi : 1.0);
@@ -474,7 +473,7 @@ class Fitting {
   const SurfaceFitOptions& options_;
   Moments moments_;
   FittedSurface best_;
-  mutable std::vector<Surface::At> places_;  // of the samples that are read, kept for its memory
+  std::vector<Surface::At> places_;  // of the samples that are read, kept for its memory
 };
 
 const Surface& nearest_part(const std::vector<Surface>& parts, const Vector3d& p) {

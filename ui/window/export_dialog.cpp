@@ -53,7 +53,8 @@ ExportDialog::ExportDialog(QString prefix, QWidget* parent)
   column->addWidget(what);
   column->addWidget(files_);
 
-  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  if (!QFileInfo(documents).isDir()) documents = QDir::homePath();
   folder_ = new QLineEdit(settings.value("folders/results", documents).toString(), this);
   folder_->setObjectName("export_folder");
   auto* browse = new QPushButton(tr("&Browse…"), this);

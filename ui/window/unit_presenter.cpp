@@ -128,7 +128,7 @@ void UnitPresenter::refresh() {
   for (const LengthUnitInfo& info : length_unit_table())
     if (info.unit != LengthUnit::unknown && !std::ranges::count(likely, info.unit))
       others << name_of(info.unit);
-  bar_->ask(tr("%1: %2?").arg(QString::fromStdString(size_in_words(size)), alternatives(likely)),
+  bar_->ask(tr("In %2: %1?").arg(QString::fromStdString(size_in_words(size)), alternatives(likely)),
             names, others);
 }
 
