@@ -129,7 +129,7 @@ void add_surfaces(const Document& document, nlohmann::json& summary) {
     const PartitionSurface& fit = (*surfaces)[k];
     nlohmann::json& one = listed[std::to_string(document.partitions.partitions[k]->id)];
     one["type"] = name_of(fit.surface.type);
-    if (fit.surface.type == SurfaceType::free) continue;
+    if (!fit.fitted) continue;
     one["size"] = size_text(fit.surface, length_unit_of(document));
     one["mean_deviation"] = rounded(fit.mean_deviation, 4);
     one["max_deviation"] = rounded(fit.max_deviation, 4);

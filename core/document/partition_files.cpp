@@ -116,10 +116,9 @@ Result<std::string> partition_table_csv(const Document& document) {
         surface.radius);
     cell_if(type == SurfaceType::torus || type == SurfaceType::blend, surface.tube);
     cell_if(type == SurfaceType::cone, surface.half_angle * 180.0 / std::numbers::pi);
-    const bool fitted = type != SurfaceType::free;
-    cell_if(fitted, fit.mean_deviation);
-    cell_if(fitted, fit.max_deviation);
-    cell_if(fitted, fit.within);
+    cell_if(fit.fitted, fit.mean_deviation);
+    cell_if(fit.fitted, fit.max_deviation);
+    cell_if(fit.fitted, fit.within);
     text += partition.locked ? ",1\n" : ",0\n";
   }
   return text;

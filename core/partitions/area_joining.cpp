@@ -54,6 +54,9 @@ class AreaJoining {
         lines_(given.lines),
         banded_(given.banded),
         options_(options),
+        fitting_{.wide = static_cast<double>(options.wide),
+                 .blend = static_cast<double>(options.blend),
+                 .free = static_cast<double>(options.free)},
         noise_(given.noise),
         face_noise_(given.face_noise),
         grain_(given.grain),
@@ -109,16 +112,7 @@ class AreaJoining {
   }
   FittedSurface fit_of(const Samples& samples) const {
     if (samples.empty()) return {};
-    FittedSurface fit = fit_surface(samples, noise_);
-    // Any smooth surface is a torus for a while, and one that bends little a sphere or cylinder:
-    // they say something where the torus is a blend and the others bend noticeably.
-    const Surface& surface = fit.surface;
-    const double torus = std::min(surface.tube, std::abs(surface.radius - surface.tube));
-    if ((surface.type == SurfaceType::torus && torus > static_cast<double>(options_.blend)) ||
-        ((surface.type == SurfaceType::sphere || surface.type == SurfaceType::cylinder) &&
-         surface.radius > static_cast<double>(options_.wide)))
-      fit.misfit = std::max(fit.misfit, static_cast<double>(options_.free));
-    return fit;
+    return fit_surface(samples, noise_, fitting_);
   }
   /// What an area costs, in misfits of a sample: by its surface, or as a free one.
   double price_of(double misfit, double samples) const {
@@ -147,9 +141,19 @@ class AreaJoining {
     const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
                                  ? std::max(0.0F, rise) / allowed_rise
                                  : never;
-    const float by_kink =
-        std::max(cost_by_kink(border, a, b),
-                 std::max(0.0F, rise) / (options_.free_rise + options_.free_border * length));
+    float by_kink = cost_by_kink(border, a, b);
+    const auto as_free = [&](double lost) {
+      return static_cast<float>(std::max(0.0, lost)) /
+             (options_.free_rise + options_.free_border * length);
+    };
+    float lost = as_free(rise);
+    // Not a surface of CAD, but maybe a smooth one all the same.
+    if (options_.free_forms && lost > 1.0F && by_kink < options_.free_kink &&
+        smaller >= options_.free_samples) {
+      const FittedSurface smooth = fit_free_surface(both, noise_, options_.free_degree);
+      lost = std::min(lost, as_free(price_of(smooth.misfit, na + nb) - apart));
+    }
+    by_kink = std::max(by_kink, lost);
     float by_continuation = never;
     if (const double tear = tear_at(border, a, b); tear < 1e9) {
       const double as_chain = price_of(judge_surface(both, noise_, chain_of(a, b)).misfit, na + nb);
@@ -281,6 +285,7 @@ class AreaJoining {
   const SharpLines& lines_;
   const std::vector<std::uint8_t>& banded_;
   const AreaJoiningOptions& options_;
+  const SurfaceFitOptions fitting_;
   const SurfaceNoise noise_;
   const float face_noise_;
   const int grain_;

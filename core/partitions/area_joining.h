@@ -32,6 +32,12 @@ struct AreaJoiningOptions {
   // for each mean edge of it.
   float free_rise = 30.0F;
   float free_border = 1.0F;
+  // Such areas of at least so many samples and less than this share of a kink may be one smooth
+  // surface, of this degree, that none of CAD is near to.
+  bool free_forms = true;
+  float free_samples = 40.0F;
+  float free_kink = 0.5F;
+  int free_degree = 4;
   float wide = 100.0F;      // radius of a sphere or cylinder beyond which it is rather a free area
   float blend = 15.0F;      // least radius of a torus up to which it is more than a free area
   float kink = 2.4F;        // degrees of kink at which areas are joined

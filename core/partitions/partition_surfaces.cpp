@@ -115,6 +115,8 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.refined = most_fitted;
         options.steps = 12;
         options.near = options.most;
+        options.blend = scale * widest_blend;
+        options.free = most_misfit;
         FittedSurface fit = fit_surface(samples, noise, options);
         bool explained = fit.misfit <= most_misfit && !says_nothing(fit.surface, scale);
         if (!explained || fit.misfit > doubtful)
@@ -124,7 +126,11 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
             fit = *blend;
             explained = true;
           }
-        if (!explained) return;
+        if (!explained) {
+          fit = fit_free_surface(samples, noise, Surface::most_degree, options);
+          if (!(fit.misfit <= most_misfit)) return;
+        }
+        fitted.fitted = true;
         double sum = 0.0;
         std::size_t within = 0;
         for (const VertexId v : vertices) {

@@ -15,7 +15,9 @@ namespace arris {
 
 /// The surface that a partition is of, in the mesh's unit, and how far its vertices lie off it.
 struct PartitionSurface {
-  Surface surface;              ///< Type free: none explains it, and the deviations mean nothing.
+  /// Type free: none of CAD explains it, but maybe a height field of degree four.
+  Surface surface;
+  bool fitted = false;          ///< Whether any does; the deviations mean nothing otherwise.
   double mean_deviation = 0.0;  ///< Mean distance of the vertices, without sign.
   double max_deviation = 0.0;
   double within = 0.0;     ///< Share of the vertices within `tolerance`, 0 to 1.

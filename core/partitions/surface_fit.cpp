@@ -61,13 +61,42 @@ struct Moments {
   Matrix3d turn() const { return normals - normal * normal.transpose(); }
 };
 
+/// The terms of Surface::heights at a place, and how they change along x and y.
+struct Powers {
+  Surface::Heights value, by_x, by_y;
+
+  Powers(double x, double y, int degree) {
+    std::array<double, Surface::most_degree + 1> xs{1.0}, ys{1.0};
+    for (std::size_t k = 1; k < xs.size(); ++k) {
+      xs[k] = xs[k - 1] * x;
+      ys[k] = ys[k - 1] * y;
+    }
+    Eigen::Index term = 0;
+    for (std::size_t d = 0; d <= static_cast<std::size_t>(degree); ++d)
+      for (std::size_t j = 0; j <= d; ++j, ++term) {
+        const std::size_t i = d - j;
+        value[term] = xs[i] * ys[j];
+        by_x[term] = i > 0 ? static_cast<double>(i) * xs[i - 1] * ys[j] : 0.0;
+        by_y[term] = j > 0 ? static_cast<double>(j) * xs[i] * ys[j - 1] : 0.0;
+      }
+  }
+};
+
+/// As lengths are multiplied by `unit`.
+void scale_heights(Surface::Heights& heights, double unit) {
+  double factor = unit;
+  Eigen::Index term = 0;
+  for (int degree = 0; degree <= Surface::most_degree; ++degree, factor /= unit)
+    for (int k = 0; k <= degree; ++k) heights[term++] *= factor;
+}
+
 /// Fits one surface after the other and keeps the best.
 class Fitting {
  public:
   Fitting(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
           const SurfaceFitOptions& options)
       : samples_(samples), noise_(noise), options_(options), moments_(samples) {
-    best_.misfit = std::numeric_limits<double>::infinity();
+    best_.misfit = telling_.misfit = std::numeric_limits<double>::infinity();
   }
 
   FittedSurface best() {
@@ -78,6 +107,8 @@ class Fitting {
     cone();
     torus();
     torus_by_curvature();
+    if (telling_.misfit < options_.free) return telling_;
+    if (!tells(best_.surface)) best_.misfit = std::max(best_.misfit, options_.free);
     return best_;
   }
 
@@ -94,9 +125,10 @@ class Fitting {
     return best_;
   }
 
-  FittedSurface free() {
+  FittedSurface free(int degree) {
     Surface surface;
-    if (height_field(surface)) judge(surface);
+    free_parameters_ = (degree + 1) * (degree + 2) / 2;
+    if (height_field(surface, degree)) judge(surface);
     return best_;
   }
 
@@ -111,7 +143,8 @@ class Fitting {
       const double a = turn / (2.0 * noise_.angle * noise_.angle);
       sum += s.weight * 0.5 * (std::min(d * d, options_.most) + std::min(a, options_.most));
     }
-    static constexpr std::array<double, 8> parameters{3, 4, 5, 6, 7, 8, 8, 6};
+    const std::array<double, 8> parameters{3, 4, 5, 6,
+                                           7, 8, 8, static_cast<double>(free_parameters_)};
     // Each parameter has to be worth it (Bayesian information criterion), over the noise there is.
     const double n = static_cast<double>(samples_.size());
     const double misfit =
@@ -119,7 +152,22 @@ class Fitting {
         (1.0 + options_.price * parameters[static_cast<std::size_t>(surface.type)] * 0.5 *
                    std::log(3.0 * n) / n);
     if (misfit < best_.misfit) best_ = {surface, misfit};
+    if (misfit < telling_.misfit && tells(surface)) telling_ = {surface, misfit};
     return misfit;
+  }
+
+  /// Any smooth surface is a torus for a while, and one that bends little a sphere or cylinder:
+  /// they say something where the torus is a blend and the others bend noticeably.
+  bool tells(const Surface& surface) const {
+    switch (surface.type) {
+      case SurfaceType::torus:
+        return std::min(surface.tube, std::abs(surface.radius - surface.tube)) <= options_.blend;
+      case SurfaceType::sphere:
+      case SurfaceType::cylinder:
+        return surface.radius <= options_.wide;
+      default:
+        return true;
+    }
   }
 
   /// Judges a first estimate, and what least squares make of it where it is near.
@@ -272,33 +320,46 @@ class Fitting {
   }
 
   /// Least squares of heights over the mean plane; false where the samples turn too far for that.
-  bool height_field(Surface& surface) const {
+  bool height_field(Surface& surface, int degree) const {
+    using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Surface::Heights::RowsAtCompileTime, 1>;
+    using Gram =
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                      Surface::Heights::RowsAtCompileTime, Surface::Heights::RowsAtCompileTime>;
     surface.type = SurfaceType::free;
     surface.point = moments_.centre;
     if (!(moments_.normal.norm() > 1e-9)) return false;
     surface.axis = moments_.normal.normalized();
     const auto [x, y] = tangents(surface.axis);
-    Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+    double extent = 0.0;
+    for (const SurfaceSample& s : samples_) {
+      if (s.normal.dot(surface.axis) < 0.3) return false;
+      extent = std::max(extent, (s.point - surface.point).cwiseAbs().maxCoeff());
+    }
+    if (!(extent > 0.0)) return false;
+    const Eigen::Index count = (degree + 1) * (degree + 2) / 2;
+    Gram gram = Gram::Zero(count, count);
+    Row right = Row::Zero(count), row(count);
     const double wd = 1.0 / (noise_.distance * noise_.distance),
                  wn = 1.0 / (noise_.angle * noise_.angle);
+    const auto add = [&](const Surface::Heights& all, double value, double w) {
+      row = all.head(count);
+      gram.noalias() += w * row * row.transpose();
+      right += w * value * row;
+    };
     for (const SurfaceSample& s : samples_) {
       const double up = s.normal.dot(surface.axis);
-      if (up < 0.3) return false;
-      const Vector3d d = s.point - surface.point;
-      const double u = d.dot(x), v = d.dot(y), z = d.dot(surface.axis);
-      const auto add = [&](const Eigen::Matrix<double, 6, 1>& row, double value, double w) {
-        gram.noalias() += w * row * row.transpose();
-        right += w * value * row;
-      };
+      const Vector3d d = (s.point - surface.point) / extent;
+      const Powers at(d.dot(x), d.dot(y), degree);
       // A distance counts along the normal, an angle across it.
-      add({1.0, u, v, u * u, u * v, v * v}, z, s.weight * wd * up * up);
+      add(at.value, d.dot(surface.axis), s.weight * wd * up * up * extent * extent);
       const double slope = s.weight * wn * up * up;
-      add({0.0, 1.0, 0.0, 2.0 * u, v, 0.0}, -s.normal.dot(x) / up, slope);
-      add({0.0, 0.0, 1.0, 0.0, u, 2.0 * v}, -s.normal.dot(y) / up, slope);
+      add(at.by_x, -s.normal.dot(x) / up, slope);
+      add(at.by_y, -s.normal.dot(y) / up, slope);
     }
     gram.diagonal().array() += 1e-9 * gram.trace();
-    surface.heights = gram.ldlt().solve(right);
+    surface.heights.setZero();
+    surface.heights.head(count) = gram.ldlt().solve(right);
+    scale_heights(surface.heights, extent);
     return true;
   }
 
@@ -438,7 +499,7 @@ class Fitting {
   /// A torus from the curvatures in the middle: a short piece of one does not tell its axis.
   void torus_by_curvature() {
     Surface field;
-    if (!height_field(field)) return;
+    if (!height_field(field, 2)) return;
     const Surface::At middle = field.at(field.point);
     const Vector3d& n = middle.normal;
     const Vector3d p = field.point - middle.distance * n;
@@ -472,7 +533,8 @@ class Fitting {
   const SurfaceNoise& noise_;
   const SurfaceFitOptions& options_;
   Moments moments_;
-  FittedSurface best_;
+  FittedSurface best_, telling_;
+  int free_parameters_ = 6;
   std::vector<Surface::At> places_;  // of the samples that are read, kept for its memory
 };
 
@@ -529,13 +591,10 @@ Surface::At Surface::at(const Vector3d& p) const {
       break;
   }
   const auto [x, y] = tangents(axis);
-  const double u = d.dot(x), v = d.dot(y);
-  const double height = heights[0] + heights[1] * u + heights[2] * v + heights[3] * u * u +
-                        heights[4] * u * v + heights[5] * v * v;
-  const Vector3d normal = (axis - (heights[1] + 2.0 * heights[3] * u + heights[4] * v) * x -
-                           (heights[2] + heights[4] * u + 2.0 * heights[5] * v) * y)
-                              .normalized();
-  return {(d.dot(axis) - height) * normal.dot(axis), normal};
+  const Powers powers(d.dot(x), d.dot(y), most_degree);
+  const Vector3d normal =
+      (axis - heights.dot(powers.by_x) * x - heights.dot(powers.by_y) * y).normalized();
+  return {(d.dot(axis) - heights.dot(powers.value)) * normal.dot(axis), normal};
 }
 
 Matrix3d Surface::bend_at(const Vector3d& p) const {
@@ -578,8 +637,7 @@ Surface Surface::placed(const Vector3d& origin, double unit) const {
   result.point = origin + unit * point;
   result.radius *= unit;
   result.tube *= unit;
-  result.heights[0] *= unit;
-  result.heights.tail<3>() /= unit;
+  scale_heights(result.heights, unit);
   if (parts) {
     std::vector<Surface> moved;
     for (const Surface& part : *parts) moved.push_back(part.placed(origin, unit));
@@ -604,8 +662,8 @@ FittedSurface judge_surface(std::span<const SurfaceSample> samples, const Surfac
 }
 
 FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
-                               const SurfaceFitOptions& options) {
-  return Fitting(samples, noise, options).free();
+                               int degree, const SurfaceFitOptions& options) {
+  return Fitting(samples, noise, options).free(degree);
 }
 
 }  // namespace arris

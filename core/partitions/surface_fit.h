@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -42,8 +43,11 @@ struct Surface {
   double tube = 0.0;        ///< Of a torus or blend: radius of the tube.
   double half_angle = 0.0;  ///< Of a cone: between axis and surface, 0 to pi / 2.
   double side = 1.0;        ///< 1 where normals point away from axis or centre, -1: towards it.
-  /// Of a free surface: height over the tangent directions x, y, x^2, xy, y^2.
-  Eigen::Matrix<double, 6, 1> heights = Eigen::Matrix<double, 6, 1>::Zero();
+  /// Of a free surface: height over the tangent directions x and y, as a polynomial: factors of 1,
+  /// x, y, x^2, xy, y^2, ..., by degree.
+  static constexpr int most_degree = 4;
+  using Heights = Eigen::Matrix<double, (most_degree + 1) * (most_degree + 2) / 2, 1>;
+  Heights heights = Heights::Zero();
   /// Of a blend or chain: the surfaces that it is made of, end to end.
   std::shared_ptr<const std::vector<Surface>> parts;
 
@@ -75,6 +79,12 @@ struct SurfaceFitOptions {
   double near = 8.9;            // misfit of that from which on they are not worth it
   double least_tube = 0.3;      // of a torus, in the unit of the points
   double largest_radius = 1e4;  // beyond it is a plane, in the unit of the points
+  // Of a sphere or cylinder, and of a torus the lesser, from which on it says little of what an
+  // area is: one that does so is rather chosen where it misses less than `free`; else misfits are
+  // at least that.
+  double wide = std::numeric_limits<double>::infinity();
+  double blend = std::numeric_limits<double>::infinity();
+  double free = 0.0;
 };
 
 /// The best of plane, sphere, cylinder, cone and torus.
@@ -89,9 +99,9 @@ FittedSurface refit_surface(std::span<const SurfaceSample> samples, const Surfac
 FittedSurface judge_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
                             const Surface& surface, const SurfaceFitOptions& options = {});
 
-/// A height field of degree two over the mean plane; misfit infinite where the samples turn too far
-/// for one.
+/// A height field over the mean plane, of degree 2 to Surface::most_degree; misfit infinite where
+/// the samples turn too far for one.
 FittedSurface fit_free_surface(std::span<const SurfaceSample> samples, const SurfaceNoise& noise,
-                               const SurfaceFitOptions& options = {});
+                               int degree = 2, const SurfaceFitOptions& options = {});
 
 }  // namespace arris

@@ -254,7 +254,7 @@ void ElementsPresenter::fill_partitions_table() {
       const std::string_view name = name_of(fit.surface.type);
       type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
       size = QString::fromStdString(size_text(fit.surface, length_unit_of(document)));
-      if (fit.surface.type != SurfaceType::free) {
+      if (fit.fitted) {
         mean = shown(fit.mean_deviation);
         most = shown(fit.max_deviation);
         within = shown(100.0 * fit.within);
