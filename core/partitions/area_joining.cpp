@@ -138,9 +138,14 @@ class AreaJoining {
     const float length = border_of_samples(border);
     const float allowed_rise =
         options_.rise + options_.rise_each * smaller + options_.rise_border * length;
-    const float by_surface = misfit < static_cast<double>(options_.free) && options_.surfaces
-                                 ? std::max(0.0F, rise) / allowed_rise
-                                 : never;
+    const auto in_strip = [&](std::uint32_t k) {
+      return voting_[k] < options_.strip_votes * area_[k];
+    };
+    const bool strip = smaller < options_.strip_samples && in_strip(a) && in_strip(b);
+    const float by_surface =
+        options_.surfaces && (strip || misfit < static_cast<double>(options_.free))
+            ? std::max(0.0F, rise) / allowed_rise
+            : never;
     float by_kink = cost_by_kink(border, a, b);
     const auto as_free = [&](double lost) {
       return static_cast<float>(std::max(0.0, lost)) /

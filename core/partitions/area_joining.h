@@ -27,6 +27,11 @@ struct AreaJoiningOptions {
   float rise_each = 1.5F;
   float rise_area = 50.0F;
   float rise_border = 0.6F;
+  // Narrow strips along lines: areas of less than this share of faces that vote, and less than so
+  // many samples in the smaller one, bend too much for a surface; but they are joined by it all the
+  // same, where that makes nothing worse.
+  float strip_votes = 0.4F;
+  float strip_samples = 8.0F;
   float free = 2.5F;  // mean misfit at which an area is rather free than of a surface
   // Over a border without a kink areas become a free one where no more is lost than this, and this
   // for each mean edge of it.

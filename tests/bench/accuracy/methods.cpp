@@ -93,6 +93,7 @@ constexpr AreaIdea area_ideas[] = {
     {"noise of windows", [](AreaTreeOptions& o) { o.growths = 1; }},
     {"no joins by surfaces", [](AreaTreeOptions& o) { o.joining.surfaces = false; }},
     {"no continuations", [](AreaTreeOptions& o) { o.joining.continuations = false; }},
+    {"strips as other areas", [](AreaTreeOptions& o) { o.joining.strip_votes = 0.0F; }},
     {"no free forms", [](AreaTreeOptions& o) { o.joining.free_forms = false; }},
     {"no joins over kinks", [](AreaTreeOptions& o) { o.joining.kink = 1e-3F; }},
     {"no limit on free areas", [](AreaTreeOptions& o) { o.joining.free_rise = 1e9F; }},
