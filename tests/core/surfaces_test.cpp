@@ -540,6 +540,52 @@ TEST(FindPartitions, AFilletAlongACurveIsOneBlend) {
   }
 }
 
+/// A wall of a tube and its rim, `width` wide, both edges of it rounded as a scan rounds them.
+Triangles rim_of_tube(double around, double width, double rounding, double wall, double h) {
+  const double arc = rounding * std::numbers::pi / 2.0, flat = width - 2.0 * rounding;
+  return shaped_lattice(around, h, [=](double x, double y) {
+    // Along the profile: up the outer wall, over the rim, down the inner one.
+    double way = y * (2.0 * wall + 2.0 * arc + flat) / around, out = rounding, up = 0.0;
+    const auto spent = [&](double length) {
+      const double part = std::clamp(way, 0.0, length);
+      way -= part;
+      return part;
+    };
+    up += spent(wall);
+    double turn = spent(arc) / rounding;
+    out -= rounding * (1.0 - std::cos(turn));
+    up += rounding * std::sin(turn);
+    out -= spent(flat);
+    turn = spent(arc) / rounding;
+    out -= rounding * std::sin(turn);
+    up -= rounding * (1.0 - std::cos(turn));
+    up -= std::max(way, 0.0);
+    const double radius = around / 5.0, angle = x / radius;
+    return Point((radius + out) * std::cos(angle), (radius + out) * std::sin(angle), up);
+  });
+}
+
+TEST(FindPartitions, ANarrowRimIsOnePartition) {
+  // Two and a half edges between two lines: hardly a face of it is not rounded, so that no surface
+  // explains its pieces, and none parts them either.
+  constexpr double h = 0.7, wall = 20.0 * h;
+  for (const double noise : {0.0, 0.05, 0.1}) {
+    int pieces = 0;
+    constexpr int scans = 5;
+    for (int scan = 0; scan < scans; ++scan) {
+      const Document document = found(noisy(rim_of_tube(60.0 * h, 2.5 * h, 0.8 * h, wall, h), noise,
+                                            7 + static_cast<std::uint64_t>(scan)));
+      EXPECT_EQ(document.lines.lines.size(), 2u);
+      std::set<std::uint32_t> on_rim;
+      for (FaceId f = 0; f < document.mesh->face_count(); ++f)
+        if (centre_of(*document.mesh, f).z() > wall + 0.7 * h)
+          on_rim.insert(document.partitions.labels[f]);
+      pieces += static_cast<int>(on_rim.size());
+    }
+    EXPECT_LE(pieces, scans + 1) << noise;
+  }
+}
+
 TEST(FindPartitions, SidesBetweenLinesAreOneEach) {
   for (const double noise : {0.0, 0.05, 0.15}) {
     EXPECT_EQ(found(noisy(divided_cube(20.0, 24), noise, 4)).partitions.partitions.size(), 6u)
