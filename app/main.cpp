@@ -16,6 +16,7 @@
 #include "ui/window/about_dialog.h"
 #include "ui/window/log_file.h"
 #include "ui/window/main_window.h"
+#include "ui/window/named_views_presenter.h"
 #include "ui/window/report_presenter.h"
 #include "ui/window/theme.h"
 
@@ -118,8 +119,9 @@ int main(int argc, char** argv) {
       "U");
   const QCommandLineOption report(
       "report", "Open, write the report with its pictures there and exit.", "FOLDER");
+  const QCommandLineOption view("view", "With --screenshot: the view of this name.", "NAME");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
-  parser.addOptions({sample, screenshot, field, size, run, flow, unit, window, report});
+  parser.addOptions({sample, screenshot, field, size, run, flow, unit, window, report, view});
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
   if (parser.isSet("help")) parser.showHelp();
   if (parser.isSet("version")) parser.showVersion();
@@ -210,6 +212,13 @@ int main(int argc, char** argv) {
         request.folder = QFileInfo(parser.value(report)).absoluteFilePath().toStdString();
         main_window.reports().write(request, true, end);
         return;
+      }
+      if (parser.isSet(view)) {
+        const QString name = parser.value(view);
+        const auto place = main_window.named_views().find(name);
+        if (!place) return end("there is no named view \"" + name + "\" in this session.");
+        main_window.named_views().show(*place);
+        main_window.fields().wait_until_there();
       }
       if (parser.isSet(window)) {
         if (!main_window.grab().save(picture)) error = picture + " could not be written.";

@@ -148,6 +148,9 @@ TEST_F(Program, DrawsPicturesAndReportsOfSessionsAsOfScans) {
     EXPECT_EQ(QImage(folder.filePath("picture.png")).size(), QSize(400, 300)) << name;
     EXPECT_TRUE(QFile::remove(folder.filePath("picture.png")));
   }
+  EXPECT_EQ(run({path, "--screenshot", folder.filePath("none.png"), "--view", "Front"}), 1);
+  EXPECT_TRUE(told.contains("\"Front\"")) << told.toStdString();
+  EXPECT_FALSE(QFile::exists(folder.filePath("none.png")));
   EXPECT_EQ(run({path, "--report", folder.filePath("report")}), 0) << told.toStdString();
   EXPECT_TRUE(QFile::exists(folder.filePath("report/report.pdf")));
   EXPECT_FALSE(QImage(folder.filePath("report/view.png")).isNull());

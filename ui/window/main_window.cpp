@@ -29,6 +29,7 @@
 #include "ui/panels/unit_bar.h"
 #include "ui/window/about_dialog.h"
 #include "ui/window/hover_text.h"
+#include "ui/window/named_views_presenter.h"
 #include "ui/window/report_presenter.h"
 #include "ui/window/tab_order.h"
 
@@ -89,9 +90,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   side_by_side_->set_strip(unit_bar);
   units_ = new UnitPresenter(session_, unit_bar, this);
   make_guidance();
+  named_views_ = new NamedViewsPresenter([this] { return view_keepers(); }, this);
   reports_ = new ReportPresenter(
       session_, [this] { return view_keepers(); }, [this](bool shown) { show_partitions(shown); },
-      this);
+      named_views_, this);
   make_status_bar();
   make_actions();
   tour_ = new TourPresenter(session_, fields_, histogram_, view_, this);
@@ -173,7 +175,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   view_rest_ = new QTimer(this);
   view_rest_->setSingleShot(true);
   connect(view_rest_, &QTimer::timeout, this, [this] {
-    if (!session_->current().document.empty()) session_->keep_view(saved_view(view_keepers()));
+    if (!session_->current().document.empty()) session_->keep_view(views_to_keep());
   });
   const auto view_changed = [this] { view_rest_->start(view_rest); };
   connect(view_, &MeshView::look_changed, this, view_changed);
@@ -181,6 +183,12 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(elements_, &ElementsPresenter::visibility_changed, this, view_changed);
   connect(elements_, &ElementsPresenter::partitions_shown_changed, this, view_changed);
   for (QAction* toggle : toggles_) connect(toggle, &QAction::toggled, this, view_changed);
+  connect(named_views_, &NamedViewsPresenter::edited, this, [this] {
+    session_->keep_view(views_to_keep());
+    session_->edit_extras();
+  });
+  connect(named_views_, &NamedViewsPresenter::message, this,
+          [this](const QString& text) { statusBar()->showMessage(text, 4000); });
 
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());

@@ -37,6 +37,7 @@ class FocusRing;
 
 class HistoryPanel;
 class SectionBar;
+class NamedViewsPresenter;
 class ReportPresenter;
 class StartPage;
 
@@ -69,6 +70,7 @@ class MainWindow : public QMainWindow {
   TourPresenter& tour() { return *tour_; }
   ComparisonPresenter& comparison() { return *comparison_; }
   ReportPresenter& reports() { return *reports_; }
+  NamedViewsPresenter& named_views() { return *named_views_; }
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -94,6 +96,11 @@ class MainWindow : public QMainWindow {
   void make_status_bar();
   void choose_file();
   void choose_picture();
+  /// A picture of each named view.
+  void choose_pictures();
+  /// The error, or nothing; the part is looked at as before then.
+  QString save_pictures(const QString& folder, const QStringList& names);
+  bool may_replace(const QStringList& names, const QString& folder);
   void export_results();
   /// Saves the session where it is; asks where it is to be only where it is nowhere. It goes on
   /// meanwhile. False: nobody said where.
@@ -103,6 +110,8 @@ class MainWindow : public QMainWindow {
   void tell_saved(const QString& path, const Result<void>& written);
   SessionExtras extras_to_save();
   ViewKeepers view_keepers();
+  /// How the part is looked at, and the named views.
+  std::string views_to_keep();
   /// True where the open session may go: nothing unsaved, or the user said so.
   bool may_leave_session();
   /// Asks for a scan that a session was made on, and opens the session again with it.
@@ -159,6 +168,7 @@ class MainWindow : public QMainWindow {
   TourPresenter* tour_;
   UnitPresenter* units_;
   ReportPresenter* reports_;
+  NamedViewsPresenter* named_views_;
 
   QMenu* recent_menu_;
   QMenu* panels_menu_;

@@ -17,6 +17,7 @@
 #include "ui/panels/start_page.h"
 #include "ui/window/actions.h"
 #include "ui/window/main_window.h"
+#include "ui/window/named_views_presenter.h"
 #include "ui/window/report_presenter.h"
 #include "ui/window/theme.h"
 
@@ -163,6 +164,7 @@ void MainWindow::make_view_menu() {
                  tr("The selected lines and partitions in the view"));
   connect(zoom_, &QAction::triggered, elements_, &ElementsPresenter::zoom_to_selection);
   make_standard_views(look->addMenu(tr("S&tandard views")));
+  named_views_->add_actions(look->addMenu(tr("Na&med views")));
   look->addSeparator();
   panels_menu_ = look->addMenu(tr("Pa&nels"));
   for (QDockWidget* dock : findChildren<QDockWidget*>())

@@ -16,6 +16,7 @@
 #include <QStatusBar>
 #include <QTimer>
 
+#include "core/document/journal.h"
 #include "core/document/results.h"
 #include "core/mesh/write_ply.h"
 #include "core/samples/mould.h"
@@ -23,6 +24,7 @@
 #include "ui/panels/start_page.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/main_window.h"
+#include "ui/window/named_views_presenter.h"
 #include "ui/window/picture_dialog.h"
 
 namespace arris::ui {
@@ -44,6 +46,13 @@ QString choose_path(QWidget* parent, const QString& title, const QFileInfo& prop
   const QString path = dialog.selectedFiles().first();
   QSettings().setValue("folders/" + kind, QFileInfo(path).absolutePath());
   return path;
+}
+
+/// A name without what file systems refuse.
+QString as_file_name(QString name) {
+  for (QChar& c : name)
+    if (QString("/\\:*?\"<>|").contains(c) || c.unicode() < 0x20) c = '_';
+  return name;
 }
 
 }  // namespace
@@ -92,6 +101,10 @@ void MainWindow::take_opened() {
   // A session that nobody looked at yet, as from the command line, shows what was found.
   if (!restore_view(view_keepers(), session_->extras().view) && document.find_partitions)
     show_partitions(true);
+  const nlohmann::json kept = parse_record(session_->extras().view);
+  named_views_->restore(kept.is_object() && kept.contains("named") ? kept["named"]
+                                                                   : nlohmann::json());
+  named_views_->set_part(true);
   view_->setFocus();
   refresh_title();
   remember_recent(session_->file().isEmpty() ? QString::fromStdString(document.scan_path)
@@ -125,9 +138,15 @@ ViewKeepers MainWindow::view_keepers() {
   return {view_, fields_, elements_, section_, view_presenter_, show_partitions_, toggles_};
 }
 
+std::string MainWindow::views_to_keep() {
+  nlohmann::json view = parse_record(saved_view(view_keepers()));
+  view["named"] = named_views_->saved();
+  return view.dump();
+}
+
 SessionExtras MainWindow::extras_to_save() {
   SessionExtras extras;
-  extras.view = saved_view(view_keepers());
+  extras.view = views_to_keep();
   // Small, for the list of recent files.
   PictureOptions options;
   options.size = {320, 240};
@@ -285,9 +304,13 @@ QImage MainWindow::picture(const PictureOptions& options) {
 
 void MainWindow::choose_picture() {
   picture_options_.scalar_bar = true;
-  PictureDialog dialog(picture_options_, stack_->size(), this);
+  PictureDialog dialog(picture_options_, stack_->size(), !named_views_->views().empty(), this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
+  if (dialog.each_view()) {
+    choose_pictures();
+    return;
+  }
   const QString name = QFileInfo(session_->part_name()).completeBaseName() + ".png";
   const QFileInfo proposed(QDir(QSettings().value("folders/pictures").toString()), name);
   const QString path =
@@ -298,6 +321,52 @@ void MainWindow::choose_picture() {
     statusBar()->showMessage(tr("Saved %1").arg(path), 5000);
   else
     QMessageBox::warning(this, "Arris", error);
+}
+
+void MainWindow::choose_pictures() {
+  QSettings settings;
+  const QString folder = QFileDialog::getExistingDirectory(
+      this, tr("Folder for the pictures"), settings.value("folders/pictures").toString());
+  if (folder.isEmpty()) return;
+  settings.setValue("folders/pictures", folder);
+  const QString before = QFileInfo(session_->part_name()).completeBaseName() + "_";
+  QStringList names, there;
+  for (const NamedViewsPresenter::NamedView& view : named_views_->views()) {
+    const QString name = before + as_file_name(view.name);
+    QString unique = name + ".png";
+    for (int k = 2; names.contains(unique, Qt::CaseInsensitive); ++k)
+      unique = QString("%1_%2.png").arg(name).arg(k);
+    names << unique;
+    if (QFileInfo::exists(QDir(folder).filePath(names.back()))) there << names.back();
+  }
+  if (!there.isEmpty() && !may_replace(there, folder)) return;
+  const QString error = save_pictures(folder, names);
+  if (error.isEmpty())
+    statusBar()->showMessage(tr("%1 saved to %2").arg(names.join(", "), folder), 8000);
+  else
+    QMessageBox::warning(this, "Arris", error);
+}
+
+QString MainWindow::save_pictures(const QString& folder, const QStringList& names) {
+  const std::string before = saved_view(view_keepers());
+  QString error;
+  for (qsizetype k = 0; k < names.size() && error.isEmpty(); ++k) {
+    named_views_->show(static_cast<std::size_t>(k));
+    fields_->wait_until_there();
+    save_picture(QDir(folder).filePath(names[k]), picture_options_, &error);
+  }
+  restore_view(view_keepers(), before);
+  return error;
+}
+
+bool MainWindow::may_replace(const QStringList& names, const QString& folder) {
+  QMessageBox box(QMessageBox::Question, "Arris", tr("Replace what is in this folder from before?"),
+                  QMessageBox::NoButton, this);
+  box.setInformativeText(tr("%1 in %2 would be replaced.").arg(names.join(", "), folder));
+  QPushButton* replace = box.addButton(tr("Replace"), QMessageBox::AcceptRole);
+  box.addButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == replace;
 }
 
 void MainWindow::export_results() {
@@ -313,17 +382,7 @@ void MainWindow::export_results() {
     all << dialog.name_of(*file);
     if (QFileInfo::exists(path(*file))) there << dialog.name_of(*file);
   }
-  if (!there.isEmpty()) {
-    QMessageBox box(QMessageBox::Question, "Arris",
-                    tr("Replace what was exported to this folder before?"), QMessageBox::NoButton,
-                    this);
-    box.setInformativeText(
-        tr("%1 in %2 would be replaced.").arg(there.join(", "), dialog.folder()));
-    QPushButton* replace = box.addButton(tr("Replace"), QMessageBox::AcceptRole);
-    box.addButton(QMessageBox::Cancel);
-    box.exec();
-    if (box.clickedButton() != replace) return;
-  }
+  if (!there.isEmpty() && !may_replace(there, dialog.folder())) return;
   Result<void> written;
   for (const ResultFile* file : files)
     if (written) written = file->write(path(*file).toStdString(), session_->history());

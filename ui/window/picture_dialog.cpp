@@ -24,7 +24,8 @@ QSpinBox* pixels(int value, QWidget* parent) {
 
 }  // namespace
 
-PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, QWidget* parent)
+PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, bool named_views,
+                             QWidget* parent)
     : QDialog(parent) {
   setWindowTitle(tr("Save picture"));
   auto* form = new QFormLayout(this);
@@ -49,6 +50,12 @@ PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, QWi
   form->addRow(QString(), scalar_bar_);
   form->addRow(QString(), scale_bar_);
   form->addRow(QString(), marker_);
+  each_view_ = new QCheckBox(tr("One for each named view"), this);
+  each_view_->setObjectName("each_view");
+  each_view_->setEnabled(named_views);
+  each_view_->setToolTip(named_views ? tr("All of them at once, into a folder")
+                                     : tr("No view was kept yet: View ▸ Named views"));
+  form->addRow(QString(), each_view_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
   buttons->button(QDialogButtonBox::Save)->setText(tr("Save as…"));
   form->addRow(buttons);
@@ -68,6 +75,8 @@ PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, QWi
   connect(keep_proportion_, &QCheckBox::toggled, this, [=, this] { follow(height_, false); });
   follow(height_, false);
 }
+
+bool PictureDialog::each_view() const { return each_view_->isChecked(); }
 
 PictureOptions PictureDialog::options() const {
   PictureOptions options;

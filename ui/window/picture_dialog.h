@@ -15,8 +15,10 @@ class PictureDialog : public QDialog {
   Q_OBJECT
  public:
   /// Opens with `options`; the width follows the height in the proportion of `view_size`.
-  PictureDialog(const PictureOptions& options, QSize view_size, QWidget* parent);
+  /// `named_views`: there are some to make pictures of.
+  PictureDialog(const PictureOptions& options, QSize view_size, bool named_views, QWidget* parent);
   PictureOptions options() const;
+  bool each_view() const;  ///< A picture of each named view instead of one of this.
 
  private:
   QSpinBox* width_;
@@ -26,6 +28,7 @@ class PictureDialog : public QDialog {
   QCheckBox* scale_bar_;
   QCheckBox* marker_;
   QComboBox* background_;
+  QCheckBox* each_view_;
 };
 
 }  // namespace arris::ui

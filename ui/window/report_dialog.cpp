@@ -9,6 +9,7 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
@@ -54,20 +55,25 @@ ReportDialog::ReportDialog(const QString& part, QWidget* parent) : QDialog(paren
   paper_ = new QCheckBox(tr("&PDF beside the page"), this);
   paper_->setObjectName("report_paper");
   paper_->setChecked(settings.value("report/paper", true).toBool());
+  const auto add_row = [&](const QString& text, QLineEdit* edit, QLayout* row) {
+    auto* label = new QLabel(text, this);
+    label->setBuddy(edit);
+    form->addRow(label, row);
+  };
   form->addRow(tr("&Title"), title_);
   form->addRow(tr("&Company"), company_);
-  form->addRow(tr("&Logo"), with_browse(logo_, [this] {
-                 return QFileDialog::getOpenFileName(this, tr("Logo"), logo_->text(),
-                                                     tr("Pictures (*.png *.jpg *.jpeg *.svg)"));
-               }));
-  form->addRow(tr("Pa&ge"), with_browse(page_, [this] {
-                 return QFileDialog::getOpenFileName(this, tr("Page for reports"), page_->text(),
-                                                     tr("HTML (*.html *.htm)"));
-               }));
-  form->addRow(tr("&Folder"), with_browse(folder_, [this] {
-                 return QFileDialog::getExistingDirectory(this, tr("Folder for the report"),
-                                                          folder_->text());
-               }));
+  add_row(tr("&Logo"), logo_, with_browse(logo_, [this] {
+            return QFileDialog::getOpenFileName(this, tr("Logo"), logo_->text(),
+                                                tr("Pictures (*.png *.jpg *.jpeg *.svg)"));
+          }));
+  add_row(tr("Pa&ge"), page_, with_browse(page_, [this] {
+            return QFileDialog::getOpenFileName(this, tr("Page for reports"), page_->text(),
+                                                tr("HTML (*.html *.htm)"));
+          }));
+  add_row(tr("&Folder"), folder_, with_browse(folder_, [this] {
+            return QFileDialog::getExistingDirectory(this, tr("Folder for the report"),
+                                                     folder_->text());
+          }));
   form->addRow(QString(), paper_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   write_ = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);

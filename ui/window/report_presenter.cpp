@@ -87,11 +87,13 @@ QString write_paper(const QString& page, const QString& path) {
 }  // namespace
 
 ReportPresenter::ReportPresenter(Session* session, std::function<ViewKeepers()> keepers,
-                                 std::function<void(bool)> show_partitions, QWidget* window)
+                                 std::function<void(bool)> show_partitions,
+                                 NamedViewsPresenter* views, QWidget* window)
     : QObject(window),
       session_(session),
       keepers_(std::move(keepers)),
       show_partitions_(std::move(show_partitions)),
+      views_(views),
       window_(window),
       work_(new LatestWork(this)) {}
 
@@ -129,6 +131,7 @@ QString ReportPresenter::draw_pictures(const QString& folder,
   MeshView& view = *keepers.view;
   const std::string before = saved_view(keepers);
   QString error;
+  QImage last;
   // That of the view, for what is fitted to it to fill the picture.
   const double proportion =
       std::clamp(static_cast<double>(view.width()) / std::max(view.height(), 1), 1.2, 1.8);
@@ -137,6 +140,8 @@ QString ReportPresenter::draw_pictures(const QString& folder,
     PictureOptions options;
     options.size = {picture_width, static_cast<int>(picture_width / proportion)};
     const QImage image = view.picture(options);
+    if (image == last) pictures.pop_back();  // looked at like that anyway
+    last = image;
     const QString path = QDir(folder).filePath(name);
     if (image.isNull())
       error = tr("The picture could not be drawn: the graphics driver refused it.");
@@ -146,6 +151,15 @@ QString ReportPresenter::draw_pictures(const QString& folder,
       pictures.push_back({name.toStdString(), caption.toStdString(), proportion});
   };
   const Document& document = session_->current().document;
+  for (std::size_t k = 0; k < views_->views().size(); ++k) {
+    views_->show(k);
+    keepers.fields->wait_until_there();
+    draw(QString("view_%1.png").arg(k + 1), views_->views()[k].name);
+  }
+  if (!views_->views().empty()) {
+    restore_view(keepers, before);
+    return error;
+  }
   draw("view.png", tr("As it was looked at"));
   view.look_from(MeshView::StandardView::isometric);
   const bool divided = !document.partitions.partitions.empty();

@@ -8,6 +8,7 @@
 
 #include "core/report/report.h"
 #include "ui/window/latest_work.h"
+#include "ui/window/named_views_presenter.h"
 #include "ui/window/saved_view.h"
 #include "ui/window/session.h"
 
@@ -18,9 +19,10 @@ class ReportPresenter : public QObject {
   Q_OBJECT
  public:
   /// `keepers`: how the part is looked at now. `show_partitions`: makes partitions, or the field,
-  /// colour the surface.
+  /// colour the surface. `views`: what is pictured, where there are any.
   ReportPresenter(Session* session, std::function<ViewKeepers()> keepers,
-                  std::function<void(bool)> show_partitions, QWidget* window);
+                  std::function<void(bool)> show_partitions, NamedViewsPresenter* views,
+                  QWidget* window);
 
   /// Asks where and how, then writes it and tells.
   void ask();
@@ -43,6 +45,7 @@ class ReportPresenter : public QObject {
   Session* session_;
   std::function<ViewKeepers()> keepers_;
   std::function<void(bool)> show_partitions_;
+  NamedViewsPresenter* views_;
   QWidget* window_;
   LatestWork* work_;
 };

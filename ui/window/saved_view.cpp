@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <QAction>
+#include <QActionGroup>
 
 #include "core/document/journal.h"
 #include "ui/view/mesh_view.h"
@@ -70,7 +71,9 @@ bool restore_view(const ViewKeepers& keepers, const std::string& text) {
     toggle->setChecked(
         saved_flag(toggles, toggle->objectName().toUtf8().constData(), toggle->isChecked()));
   keepers.fields->restore(part("field"));
-  if (saved_flag(saved, "partitions", false)) keepers.partitions->setChecked(true);
+  const bool divided = saved_flag(saved, "partitions", false);
+  for (QAction* one : keepers.partitions->actionGroup()->actions())  // or the field
+    if ((one == keepers.partitions) == divided) one->setChecked(true);
   const double surface = saved_number(saved, "surface", 0.0, 0.0, 2.0);
   keepers.surface->set_surface(static_cast<ShownSurface>(static_cast<int>(surface)));
   keepers.elements->restore_visibility(part("hidden"));

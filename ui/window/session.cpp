@@ -362,6 +362,7 @@ void Session::take_over(Opened opened) {
   applies_corrections_ = true;
   saved_head_ = opened.unsaved ? 0 : history_.head();
   saved_names_ = history_.names();
+  saved_extras_ = edited_extras_;
   show(std::move(opened.shown));
   for (const auto* step : {&current_.document.find_sharp_lines, &current_.document.find_partitions})
     if (*step && !(*step)->parameters.value("corrections", true)) applies_corrections_ = false;
@@ -390,15 +391,16 @@ void Session::save(const QString& path, const SessionExtras& given,
   // A copy, which shares the document: what is done from here on does not touch it.
   const auto history = std::make_shared<const History>(history_.copy_to_save());
   work_aside([file, history, extras] { return save_session(file, *history, extras); },
-             [this, file, history, extras, round = round_,
+             [this, file, history, extras, round = round_, edited = edited_extras_,
               then = std::move(then)](const Result<void>& written) {
                --saves_;
-               if (written && round == round_) take_saved(file, *history, extras);
+               if (written && round == round_) take_saved(file, *history, extras, edited);
                then(written);
              });
 }
 
-void Session::take_saved(const std::string& file, const History& saved, SessionExtras extras) {
+void Session::take_saved(const std::string& file, const History& saved, SessionExtras extras,
+                         std::uint64_t edited_extras) {
   file_ = QString::fromStdString(file);
   file_lock_ = FileLock::take(file);
   read_only_ = false;
@@ -410,6 +412,7 @@ void Session::take_saved(const std::string& file, const History& saved, SessionE
   }
   saved_head_ = saved.head();
   saved_names_ = saved.names();
+  saved_extras_ = edited_extras;
   emit this->saved();
 }
 
@@ -419,6 +422,11 @@ void Session::wait_until_saved() {
     QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
                                     QEventLoop::WaitForMoreEvents);
   }
+}
+
+void Session::edit_extras() {
+  ++edited_extras_;
+  emit names_changed();
 }
 
 void Session::keep_view(const std::string& view) {
@@ -485,7 +493,7 @@ void Session::discard(const QString& recovery) {
 bool Session::has_unsaved_edits() const {
   const bool edited =
       history_.entries().size() > 1 && history_.head() > 1 && history_.head() != saved_head_;
-  return edited || history_.names() != saved_names_;
+  return edited || history_.names() != saved_names_ || edited_extras_ != saved_extras_;
 }
 
 void Session::close() {

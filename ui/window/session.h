@@ -89,6 +89,9 @@ class Session : public QObject {
   /// Keeps how the part is looked at by now in the recovery session, for after a crash.
   void keep_view(const std::string& view);
 
+  /// What the session keeps beside its history was changed by the user, as its named views.
+  void edit_extras();
+
   /// Goes on with a session that a crash left behind (see abandoned_sessions()).
   void recover(const QString& recovery, const QStringList& located = {});
   /// Recovery sessions that ended without being closed, newest first.
@@ -101,6 +104,7 @@ class Session : public QObject {
   void mark_saved() {
     saved_head_ = history_.head();
     saved_names_ = history_.names();
+    saved_extras_ = edited_extras_;
     emit saved();
   }
   /// Removes the recovery session: this one was closed on purpose.
@@ -202,7 +206,8 @@ class Session : public QObject {
                                  const Context& context);
   /// Keeps what was opened safe from here on.
   static void keep(Opened& opened, const Context& context);
-  void take_saved(const std::string& file, const History& saved, SessionExtras extras);
+  void take_saved(const std::string& file, const History& saved, SessionExtras extras,
+                  std::uint64_t edited_extras);
   void set_recovery(Recovery recovery);
   void take_over(Opened opened);
   /// Tells why a session was not opened.
@@ -221,6 +226,7 @@ class Session : public QObject {
   std::string kept_view_;
   std::uint32_t saved_head_ = 0;
   std::map<std::uint32_t, std::string> saved_names_;
+  std::uint64_t edited_extras_ = 0, saved_extras_ = 0;  // how often, and what of that is saved
   ShownDocument current_;
   std::shared_ptr<const ShownDocument> previewed_;
   std::vector<std::pair<std::string, double>> seconds_;
