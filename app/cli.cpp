@@ -33,6 +33,7 @@
 #include "core/partitions/partition_surfaces.h"
 #include "core/partitions/sides.h"
 #include "core/partitions/tangent_lines.h"
+#include "core/report/report.h"
 #include "core/samples/mould.h"
 #include "core/sharp_lines/face_table.h"
 #include "core/sharp_lines/normal_noise.h"
@@ -484,6 +485,25 @@ int export_file(const std::string& operations, const std::string& scan, const st
   return 0;
 }
 
+int report(const std::string& operations, const std::string& scan, const std::string& version,
+           const std::string& unit, ReportRequest request) {
+  if (const auto ready = check_folder_writable(request.folder); !ready)
+    return complain(ready.error());
+  const Result<Replay> done = replay_at(operations, scan, version, unit);
+  if (!done) return complain(done.error());
+  ReportOptions& options = request.options;
+  options.program = "Arris " ARRIS_VERSION;
+  options.date = today();
+  if (options.title.empty())
+    options.title = std::filesystem::path(done->history.current().scan_path).stem().string();
+  if (const auto written = write_report(done->history, request, progress_context()); !written)
+    return complain(written.error());
+  std::cout << (std::filesystem::path(request.folder) / report_name).string()
+            << " written; with pictures the window's program writes it: arris " << operations
+            << " --report " << request.folder << "\n";
+  return 0;
+}
+
 int compare_versions(const std::string& operations, const std::array<std::string, 2>& versions,
                      bool as_json) {
   Result<Replay> done = replay_loudly(operations, "");
@@ -760,7 +780,25 @@ int main(int argc, char** argv) {
       ->required();
   export_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
   export_command->add_option("--at", at, "Write the version of this name, not the last state");
-  for (CLI::App* command : {replay_command, export_command}) add_unit(command);
+  CLI::App* report_command =
+      app.add_subcommand("report", "Write a report of a session: HTML with its histograms");
+  ReportRequest request;
+  report_command
+      ->add_option("OPERATIONS", operations,
+                   "A session (*.arris), or a file of operations, one JSON a line")
+      ->required();
+  report_command
+      ->add_option("-o,--output", request.folder,
+                   "The folder for it; what changed since a report there is marked")
+      ->required();
+  report_command->add_option("--scan", other_scan, "Open this scan instead of the named one");
+  report_command->add_option("--at", at, "Of the version of this name, not the last state");
+  report_command->add_option("--title", request.options.title, "Left out: the name of the part");
+  report_command->add_option("--company", request.options.company, "Who reports");
+  report_command->add_option("--logo", request.logo, "A picture, copied beside the report");
+  report_command->add_option("--page", request.page,
+                             "A page of one's own, HTML with places as {{partitions}}");
+  for (CLI::App* command : {replay_command, export_command, report_command}) add_unit(command);
 
   std::string session;
   for (CLI::App* command : {segment_command, replay_command})
@@ -841,6 +879,7 @@ int main(int argc, char** argv) {
   if (*export_command) return export_file(operations, other_scan, at, unit, what, output);
   if (*manual_command) return manual_page(app);
   if (*thumbnail_command) return thumbnail(session, output);
+  if (*report_command) return report(operations, other_scan, at, unit, request);
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <string_view>
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QFileInfo>
 #include <QIcon>
 #include <QMessageBox>
 #include <QTimer>
@@ -16,6 +18,7 @@
 #include "ui/window/about_dialog.h"
 #include "ui/window/log_file.h"
 #include "ui/window/main_window.h"
+#include "ui/window/report_presenter.h"
 #include "ui/window/theme.h"
 
 namespace {
@@ -119,10 +122,12 @@ int main(int argc, char** argv) {
       "What lengths of the scan are in: " + QString::fromStdString(length_unit_keys()) +
           "; left out: as the file says.",
       "U");
+  const QCommandLineOption report(
+      "report", "Open, write the report with its pictures there and exit.", "FOLDER");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
   QCommandLineOption manual(manual_option);
   manual.setFlags(QCommandLineOption::HiddenFromHelp);
-  told << sample << screenshot << field << size << run << flow << unit << window;
+  told << sample << screenshot << field << size << run << flow << unit << window << report;
   parser.addOptions(told.sliced(2));
   parser.addOption(manual);
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
@@ -160,7 +165,8 @@ int main(int argc, char** argv) {
 
   set_theme(application, false);
   const QString picture = parser.value(screenshot);
-  const bool shoot = parser.isSet(screenshot);
+  const bool write_report = parser.isSet(report);
+  const bool shoot = parser.isSet(screenshot) || write_report;  // then exit
   log_warnings();
   if (const QString why = why_nothing_can_be_drawn(); !why.isEmpty()) {
     program_log().write(why);
@@ -173,11 +179,12 @@ int main(int argc, char** argv) {
   Session& session = main_window.session();
   keep_log_of(session);
   if (shoot && parser.positionalArguments().isEmpty() && !parser.isSet(sample))
-    return complain("--screenshot needs a scan to draw.", bad_usage);
+    return complain("--screenshot and --report need a scan to draw.", bad_usage);
 
   // After opening: the wanted field, unit and steps, then the picture where one is wanted.
-  const auto last = std::make_shared<QString>("open");  // operation before the picture
-  QObject::connect(&session, &Session::opened, &main_window, [&, last] {
+  const auto last = std::make_shared<QString>();  // operation before the picture
+  const auto save = std::make_shared<std::function<void()>>();
+  QObject::connect(&session, &Session::opened, &main_window, [&, last, save] {
     if (wanted_field) main_window.set_field(*wanted_field);
     std::vector<Operation> operations;
     if (wanted_unit && *wanted_unit != length_unit_of(session.current().document))
@@ -186,7 +193,10 @@ int main(int argc, char** argv) {
       for (Operation& operation :
            operations_of(parser.value(flow) == "paper" ? Flow::paper : Flow::scan))
         operations.push_back(std::move(operation));
-    if (operations.empty()) return;
+    if (operations.empty()) {
+      if (*save) (*save)();
+      return;
+    }
     *last = QString::fromStdString(operations.back().name);
     QTimer::singleShot(0, &main_window, [&session, operations] { session.run(operations); });
   });
@@ -195,8 +205,24 @@ int main(int argc, char** argv) {
     QObject::connect(&session, &Session::failed, &main_window, [](const QString& message) {
       QApplication::exit(complain(message, bad_input));
     });
-    const auto shoot_now = [&, picture, width, height] {
+    QObject::disconnect(&session, &Session::scan_lost, nullptr, nullptr);
+    QObject::connect(
+        &session, &Session::scan_lost, &main_window, [](const QString& name, const QString& lost) {
+          QApplication::exit(
+              complain(name + " was made on " + lost + ", which is not there.", bad_input));
+        });
+    const auto end = [&session](const QString& error) {
+      session.close();  // nothing that the next start would have to offer
+      QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
+    };
+    const auto shoot_now = [&, end, picture, width, height] {
       QString error;
+      if (write_report) {
+        ReportRequest request;
+        request.folder = QFileInfo(parser.value(report)).absoluteFilePath().toStdString();
+        main_window.reports().write(request, true, end);
+        return;
+      }
       if (parser.isSet(window)) {
         if (!main_window.grab().save(picture)) error = picture + " could not be written.";
       } else {
@@ -204,10 +230,9 @@ int main(int argc, char** argv) {
         options.size = {width, height};
         main_window.save_picture(picture, options, &error);
       }
-      session.close();  // nothing that the next start would have to offer
-      QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
+      end(error);
     };
-    const auto save = [&, shoot_now] {
+    *save = [&, shoot_now] {
       if (wanted_field) main_window.set_field(*wanted_field);
       // Once everything has settled, and the field is there.
       auto* waiting = new QTimer(&main_window);
@@ -219,9 +244,11 @@ int main(int argc, char** argv) {
       waiting->start(300);
     };
     QObject::connect(&session, &Session::done, &main_window, [last, save](const QString& name) {
-      if (name == *last) save();
+      if (name == *last) (*save)();
     });
-    main_window.resize(std::max(main_window.width(), 1000), std::max(main_window.height(), 700));
+    // Pictures of a report are as wide as the view between its panels.
+    const QSize least = write_report ? QSize(1600, 1000) : QSize(1000, 700);
+    main_window.resize(main_window.size().expandedTo(least));
   }
   if (!shoot && !parser.isSet(run)) main_window.tour().offer();
   main_window.show();

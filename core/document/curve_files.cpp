@@ -283,20 +283,4 @@ std::string curves_csv(const HandedCurves& curves) {
   return text;
 }
 
-std::string curve_table_csv(const HandedCurves& curves) {
-  std::string text = "name,kind";
-  for (const std::string_view column : curves.columns) {
-    text += ",";
-    text += column;
-  }
-  text += "\n";
-  for (const HandedCurve& curve : curves.curves) {
-    text += curve.name + ",";
-    text += curve.layer;
-    for (const double value : curve.values) text += "," + number_text(value, digits);
-    text += "\n";
-  }
-  return text;
-}
-
 }  // namespace arris

@@ -26,7 +26,4 @@ std::string curves_vtp(const HandedCurves& curves);
 /// A row for each point: name of the curve, number of the point in it, x, y, z.
 std::string curves_csv(const HandedCurves& curves);
 
-/// A row for each curve: name, kind, its values.
-std::string curve_table_csv(const HandedCurves& curves);
-
 }  // namespace arris

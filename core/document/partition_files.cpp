@@ -1,13 +1,9 @@
 #include "core/document/partition_files.h"
 
-#include <numbers>
 #include <vector>
 
 #include "core/base/number_text.h"
 #include "core/document/handed_curves.h"
-#include "core/mesh/geometry.h"
-#include "core/partitions/partition_surfaces.h"
-#include "core/partitions/sides.h"
 
 namespace arris {
 
@@ -79,49 +75,6 @@ std::string partitions_vtp(const Document& document) {
   for (FaceId f = 0; f < mesh.face_count(); ++f)
     text += std::to_string(3 * (static_cast<std::uint64_t>(f) + 1)) + "\n";
   return text + "</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-}
-
-Result<std::string> partition_table_csv(const Document& document) {
-  const Mesh& mesh = *document.mesh;
-  const Partitions& partitions = document.partitions;
-  const auto surfaces = fit_partition_surfaces(mesh, document.lines, partitions);
-  if (!surfaces) return tl::unexpected<Error>(surfaces.error());
-  const std::vector<Outline> outlines = outlines_of(mesh, document.lines, partitions);
-  double whole = 0.0;
-  for (FaceId f = 0; f < mesh.face_count(); ++f) whole += face_area(mesh, f);
-  std::string text =
-      "partition,faces,area,area_share,sides,holes,surface,radius,tube_radius,half_angle_degrees,"
-      "mean_deviation,max_deviation,within_tolerance,approved\n";
-  const auto cell = [&](double value) { text += "," + number_text(value, digits); };
-  for (std::size_t k = 0; k < partitions.partitions.size(); ++k) {
-    const Partition& partition = *partitions.partitions[k];
-    const PartitionSurface& fit = (*surfaces)[k];
-    const Surface& surface = fit.surface;
-    text += std::to_string(partition.id) + "," + std::to_string(partition.faces);
-    cell(partition.area);
-    cell(whole > 0.0 ? partition.area / whole : 0.0);
-    cell(static_cast<double>(outlines[k].sides()));
-    cell(static_cast<double>(outlines[k].loops.empty() ? 0 : outlines[k].loops.size() - 1));
-    text += ",";
-    text += name_of(surface.type);
-    const auto cell_if = [&](bool has, double value) {
-      if (has)
-        cell(value);
-      else
-        text += ",";
-    };
-    const SurfaceType type = surface.type;
-    cell_if(
-        type == SurfaceType::sphere || type == SurfaceType::cylinder || type == SurfaceType::torus,
-        surface.radius);
-    cell_if(type == SurfaceType::torus || type == SurfaceType::blend, surface.tube);
-    cell_if(type == SurfaceType::cone, surface.half_angle * 180.0 / std::numbers::pi);
-    cell_if(fit.fitted, fit.mean_deviation);
-    cell_if(fit.fitted, fit.max_deviation);
-    cell_if(fit.fitted, fit.within);
-    text += partition.locked ? ",1\n" : ",0\n";
-  }
-  return text;
 }
 
 }  // namespace arris

@@ -6,6 +6,7 @@
 #include "core/document/curve_files.h"
 #include "core/document/journal.h"
 #include "core/document/partition_files.h"
+#include "core/document/result_table.h"
 #include "core/mesh/write_ply.h"
 
 namespace arris {
@@ -19,14 +20,16 @@ Result<void> write_curves(const std::string& path, const History& history) {
   return write_file_whole(path, text(curves(history.current())));
 }
 
+std::string curve_table(const HandedCurves& curves) { return csv_of(table_of(curves)); }
+
 template <std::string (*text)(const Document&)>
 Result<void> write_text(const std::string& path, const History& history) {
   return write_file_whole(path, text(history.current()));
 }
 
 Result<void> write_partition_table(const std::string& path, const History& history) {
-  return partition_table_csv(history.current()).and_then([&](const std::string& text) {
-    return write_file_whole(path, text);
+  return partition_table(history.current()).and_then([&](const ResultTable& table) {
+    return write_file_whole(path, csv_of(table));
   });
 }
 
@@ -70,9 +73,9 @@ std::span<const ResultFile> result_files() {
                  write_text<partitions_obj>},
       ResultFile{"partitions.vtp", "Partitions for ParaView", false, write_text<partitions_vtp>},
       ResultFile{"line_table.csv", "Table of the sharp lines", false,
-                 write_curves<handed_lines, curve_table_csv>},
+                 write_curves<handed_lines, curve_table>},
       ResultFile{"boundary_table.csv", "Table of the boundaries", false,
-                 write_curves<handed_boundaries, curve_table_csv>},
+                 write_curves<handed_boundaries, curve_table>},
       ResultFile{"partition_table.csv", "Table of the partitions with their fitted surfaces", false,
                  write_partition_table},
       ResultFile{"operations.jsonl", "The operations, to be replayed", true, write_operations}};

@@ -116,7 +116,7 @@ Result<std::vector<PartitionSurface>> fit_partition_surfaces(const Mesh& mesh,
         options.steps = 12;
         options.near = options.most;
         options.blend = scale * widest_blend;
-        options.free = most_misfit;
+        options.free = doubtful;
         FittedSurface fit = fit_surface(samples, noise, options);
         bool explained = fit.misfit <= most_misfit && !says_nothing(fit.surface, scale);
         if (!explained || fit.misfit > doubtful)

@@ -29,6 +29,7 @@
 #include "ui/panels/unit_bar.h"
 #include "ui/window/about_dialog.h"
 #include "ui/window/hover_text.h"
+#include "ui/window/report_presenter.h"
 #include "ui/window/tab_order.h"
 
 namespace arris::ui {
@@ -88,6 +89,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   side_by_side_->set_strip(unit_bar);
   units_ = new UnitPresenter(session_, unit_bar, this);
   make_guidance();
+  reports_ = new ReportPresenter(
+      session_, [this] { return view_keepers(); }, [this](bool shown) { show_partitions(shown); },
+      this);
   make_status_bar();
   make_actions();
   tour_ = new TourPresenter(session_, fields_, histogram_, view_, this);
@@ -137,6 +141,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   };
   connect(session_, &Session::progress, this, show_progress);
   connect(fields_, &FieldPresenter::progress, this, show_progress);
+  connect(reports_, &ReportPresenter::writing_changed, this, [this] {
+    show_working();
+    refresh_actions();
+  });
+  connect(reports_, &ReportPresenter::progress, this, show_progress);
+  connect(reports_, &ReportPresenter::message, this,
+          [this](const QString& text) { statusBar()->showMessage(text, 8000); });
   // A selection made in the view brings its table to the front.
   connect(elements_, &ElementsPresenter::selection_changed, this, [this] {
     const char* name = !elements_->selected_lines().empty()        ? "lines"
@@ -283,17 +294,23 @@ void MainWindow::make_status_bar() {
   statusBar()->addPermanentWidget(progress_);
   statusBar()->addPermanentWidget(cancel_);
   statusBar()->addPermanentWidget(counts_label_);
-  connect(cancel_, &QPushButton::clicked, session_, &Session::cancel);
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    if (session_->busy())
+      session_->cancel();
+    else
+      reports_->cancel();
+  });
   progress_delay_ = new QTimer(this);
   progress_delay_->setSingleShot(true);
   connect(progress_delay_, &QTimer::timeout, this, [this] {
     progress_->show();
-    cancel_->setVisible(session_->busy());  // a field stops where another one is chosen
+    // A field stops where another one is chosen.
+    cancel_->setVisible(session_->busy() || reports_->writing());
   });
 }
 
 void MainWindow::show_working() {
-  if (!session_->busy() && !fields_->working()) {
+  if (!session_->busy() && !fields_->working() && !reports_->writing()) {
     progress_delay_->stop();
     progress_->hide();
     cancel_->hide();
@@ -302,7 +319,7 @@ void MainWindow::show_working() {
     progress_->setFormat(QString());
     progress_delay_->start(progress_delay);
   } else if (!progress_->isHidden()) {
-    cancel_->setVisible(session_->busy());
+    cancel_->setVisible(session_->busy() || reports_->writing());
   }
 }
 

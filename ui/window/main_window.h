@@ -37,6 +37,7 @@ class FocusRing;
 
 class HistoryPanel;
 class SectionBar;
+class ReportPresenter;
 class StartPage;
 
 /// The workbench: the part in the centre, steps on the left, tables on the right, the histogram
@@ -67,6 +68,7 @@ class MainWindow : public QMainWindow {
   ExplanationPresenter& explanations() { return *explanations_; }
   TourPresenter& tour() { return *tour_; }
   ComparisonPresenter& comparison() { return *comparison_; }
+  ReportPresenter& reports() { return *reports_; }
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -156,12 +158,14 @@ class MainWindow : public QMainWindow {
   StabilityPresenter* stability_;
   TourPresenter* tour_;
   UnitPresenter* units_;
+  ReportPresenter* reports_;
 
   QMenu* recent_menu_;
   QMenu* panels_menu_;
   QAction* save_picture_;
   QAction* copy_picture_;
   QAction* export_;
+  QAction* write_report_;
   QAction* save_session_;
   QAction* save_session_as_;
   QAction* undo_;

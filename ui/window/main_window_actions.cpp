@@ -17,6 +17,7 @@
 #include "ui/panels/start_page.h"
 #include "ui/window/actions.h"
 #include "ui/window/main_window.h"
+#include "ui/window/report_presenter.h"
 #include "ui/window/theme.h"
 
 namespace arris::ui {
@@ -36,7 +37,7 @@ void MainWindow::make_actions() {
   stability_->add_actions(check);
   make_help_menu();
   for (QAction* a : {save_session_, save_session_as_, save_picture_, copy_picture_, export_,
-                     report_, show_field_, show_partitions_, fit_, zoom_})
+                     write_report_, report_, show_field_, show_partitions_, fit_, zoom_})
     part_actions_.push_back(a);
   for (QMenu* menu : findChildren<QMenu*>()) menu->setToolTipsVisible(true);
   make_tool_bars();
@@ -72,6 +73,10 @@ void MainWindow::make_file_menu() {
   export_ = action(file, tr("&Export results…"), QKeySequence("Ctrl+E"),
                    tr("Write lines, boundaries, labelled scan and operations into a folder"));
   connect(export_, &QAction::triggered, this, &MainWindow::export_results);
+  write_report_ = action(file, tr("Write repor&t…"), QKeySequence("Ctrl+Shift+P"),
+                         tr("Pictures, steps, tables and what is left, as a page and as PDF"));
+  write_report_->setObjectName("write_report");
+  connect(write_report_, &QAction::triggered, reports_, &ReportPresenter::ask);
   file->addSeparator();
   connect(action(file, tr("&Quit"), QKeySequence::Quit, tr("Close Arris")), &QAction::triggered,
           this, &QWidget::close);
