@@ -12,6 +12,7 @@ packages=(
   nlohmann-json3-dev libcli11-dev libexpected-dev libgtest-dev
   pkg-config zlib1g-dev libexpat1-dev libzip-dev libsqlite3-dev
   xvfb xauth libgl1-mesa-dri fonts-dejavu-core
+  desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db  # judge what is installed
 )
 
 missing_packages() {

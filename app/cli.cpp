@@ -18,6 +18,7 @@
 #include <unistd.h>
 #endif
 
+#include "app/cli_manual.h"
 #include "core/base/number_text.h"
 #include "core/base/write_file.h"
 #include "core/document/comparison.h"
@@ -572,6 +573,23 @@ int sample(const std::string& output) {
   return 0;
 }
 
+int manual_page(const CLI::App& app) {
+  const Result<std::string> page = cli_manual(app, ARRIS_VERSION);
+  if (!page) return complain(page.error());
+  std::cout << *page;
+  return std::cout.flush() ? 0 : bad_input;
+}
+
+/// Nothing is computed or drawn: the window leaves a small picture in what it saves.
+int thumbnail(const std::string& session, const std::string& output) {
+  const std::string picture = SessionFile::picture_of(session);
+  if (!picture.starts_with("\x89PNG\r\n\x1a\n"))
+    return complain({session + " holds no picture; the window leaves one when it saves."});
+  if (const auto written = write_file_whole(output, picture); !written)
+    return complain(written.error());
+  return 0;
+}
+
 /// "MIN:MAX", "MIN:" or ":MAX" as [min, max]; max null for none.
 bool parse_interval(const std::string& text, nlohmann::json& interval) {
   const std::size_t colon = text.find(':');
@@ -799,6 +817,13 @@ int main(int argc, char** argv) {
   CLI::App* sample_command = app.add_subcommand("sample", "Write the sample mould as a PLY");
   sample_command->add_option("-o,--output", output, "The PLY to write")->required();
 
+  // For the build and the file manager; not in the help.
+  CLI::App* manual_command = app.add_subcommand("manual-page", "Write arris-cli(1)")->group("");
+  CLI::App* thumbnail_command =
+      app.add_subcommand("thumbnail", "Write the picture that a session holds")->group("");
+  thumbnail_command->add_option("SESSION", session, "A session (*.arris)")->required();
+  thumbnail_command->add_option("-o,--output", output, "The PNG to write")->required();
+
   nlohmann::json& lines = segmentation.lines;
   nlohmann::json& partitions = segmentation.partitions;
   try {
@@ -852,6 +877,8 @@ int main(int argc, char** argv) {
   if (*segment_command) return segment(opening, {output, session}, segmentation);
   if (*replay_command) return replay_file(operations, other_scan, at, unit, {output, session});
   if (*export_command) return export_file(operations, other_scan, at, unit, what, output);
+  if (*manual_command) return manual_page(app);
+  if (*thumbnail_command) return thumbnail(session, output);
   if (*report_command) return report(operations, other_scan, at, unit, request);
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);

@@ -8,9 +8,11 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QFileInfo>
+#include <QIcon>
 #include <QMessageBox>
 #include <QTimer>
 
+#include "app/window_manual.h"
 #include "core/document/flow.h"
 #include "ui/view/graphics.h"
 #include "ui/window/about_dialog.h"
@@ -72,11 +74,14 @@ void keep_log_of(Session& session) {
                    [](const QString& message) { program_log().write("told: " + message); });
 }
 
-/// Asked for help or the version: that needs neither display nor graphics.
+constexpr const char* manual_option = "manual-page";  ///< For the build.
+
+/// Asked for help, the version or the manual: that needs neither display nor graphics.
 bool only_tells(int argc, char** argv) {
   return std::any_of(argv + std::min(argc, 1), argv + argc, [](const char* argument) {
     const std::string_view text = argument;
-    return text == "--help" || text == "-h" || text == "--version" || text == "-v";
+    return text == "--help" || text == "-h" || text == "--version" || text == "-v" ||
+           (text.starts_with("--") && text.substr(2) == manual_option);
   });
 }
 
@@ -92,12 +97,13 @@ int main(int argc, char** argv) {
   QApplication::setOrganizationName("arris");
   QApplication::setApplicationDisplayName("Arris");
   QApplication::setApplicationVersion(ARRIS_VERSION);
+  QApplication::setDesktopFileName("org.arris.Arris");
+  QApplication::setWindowIcon(QIcon(":/org.arris.Arris.png"));
   QLocale::setDefault(QLocale::c());
 
   QCommandLineParser parser;
   parser.setApplicationDescription("Segments scanned moulds: sharp lines, curvature, partitions.");
-  parser.addHelpOption();
-  parser.addVersionOption();
+  QList<QCommandLineOption> told{parser.addHelpOption(), parser.addVersionOption()};
   parser.addPositionalArgument("SCAN", "Scan (STL, PLY, OBJ, OFF, 3MF) or session to open.",
                                "[SCAN]");
   const QCommandLineOption sample("sample", "Open the sample mould.");
@@ -121,10 +127,16 @@ int main(int argc, char** argv) {
       "report", "Open, write the report with its pictures there and exit.", "FOLDER");
   const QCommandLineOption view("view", "With --screenshot: the view of this name.", "NAME");
   const QCommandLineOption window("window", "With --screenshot: the whole window.");
-  parser.addOptions({sample, screenshot, field, size, run, flow, unit, window, report, view});
+  QCommandLineOption manual(manual_option);
+  manual.setFlags(QCommandLineOption::HiddenFromHelp);
+  told << sample << screenshot << field << size << run << flow << unit << window << report << view;
+  parser.addOptions(told.sliced(2));
+  parser.addOption(manual);
   if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
   if (parser.isSet("help")) parser.showHelp();
   if (parser.isSet("version")) parser.showVersion();
+  if (parser.isSet(manual))
+    return std::fputs(window_manual(parser, told).c_str(), stdout) < 0 ? bad_input : 0;
   if (parser.positionalArguments().size() > 1)
     return complain("more than one scan was named; Arris opens one.", bad_usage);
 

@@ -7,19 +7,31 @@
 
 namespace arris {
 
+namespace {
+
+thread_local ParameterWatch* watch = nullptr;
+
+}  // namespace
+
+ParameterWatch::ParameterWatch() { watch = this; }
+ParameterWatch::~ParameterWatch() { watch = nullptr; }
+
 bool is_utf8(const std::string& text) {
   const std::string kept =
       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::ignore);
   return nlohmann::json::parse(kept).get<std::string>() == text;
 }
 
-const nlohmann::json* ParameterReader::take(const std::string& name) {
+const nlohmann::json* ParameterReader::take(const std::string& name,
+                                            const nlohmann::json& otherwise) {
   known_.insert(name);
+  if (watch) watch->notes_.push_back({name, {}, otherwise});
   const auto found = given_.find(name);
   return found == given_.end() || found->is_null() ? nullptr : &*found;
 }
 
 void ParameterReader::fault(const std::string& name, const std::string& expected) {
+  if (watch) watch->notes_.push_back({name, expected});
   if (error_) return;
   const auto found = given_.find(name);
   std::string value = found == given_.end()
@@ -29,18 +41,22 @@ void ParameterReader::fault(const std::string& name, const std::string& expected
   error_ = Error{operation_ + ": '" + name + "' is " + value + "; expected " + expected + "."};
 }
 
+bool ParameterReader::has(const std::string& name) const {
+  if (watch) watch->notes_.push_back({name});
+  return given_.contains(name);
+}
+
 double ParameterReader::real(const std::string& name, double otherwise, double least, double most) {
-  const nlohmann::json* given = take(name);
   double value = otherwise;
-  if (given) {
+  // What a part of absurd size suggests: a journal can hold no number that is infinite or none.
+  if (!std::isfinite(value) || value < least || value > most)
+    value = value > most && std::isfinite(most) ? most : least;
+  if (const nlohmann::json* given = take(name, value)) {
     if (!given->is_number() || !std::isfinite(given->get<double>()) ||
         given->get<double>() < least || given->get<double>() > most)
       fault(name, "a number from " + number_text(least) + " to " + number_text(most));
     else
       value = given->get<double>();
-  } else if (!std::isfinite(value) || value < least || value > most) {
-    // What a part of absurd size suggests: a journal can hold no number that is infinite or none.
-    value = value > most && std::isfinite(most) ? most : least;
   }
   resolved_[name] = value;
   return value;
@@ -48,7 +64,7 @@ double ParameterReader::real(const std::string& name, double otherwise, double l
 
 std::int64_t ParameterReader::whole(const std::string& name, std::int64_t otherwise,
                                     std::int64_t least, std::int64_t most) {
-  const nlohmann::json* given = take(name);
+  const nlohmann::json* given = take(name, otherwise);
   std::int64_t value = otherwise;
   if (given) {
     if (!given->is_number_integer() || given->get<std::int64_t>() < least ||
@@ -63,7 +79,7 @@ std::int64_t ParameterReader::whole(const std::string& name, std::int64_t otherw
 
 std::string ParameterReader::choice(const std::string& name, const std::string& otherwise,
                                     const std::vector<std::string>& choices) {
-  const nlohmann::json* given = take(name);
+  const nlohmann::json* given = take(name, otherwise);
   std::string value = otherwise;
   if (given) {
     if (!given->is_string() ||
@@ -80,7 +96,7 @@ std::string ParameterReader::choice(const std::string& name, const std::string& 
 }
 
 std::string ParameterReader::text(const std::string& name, const std::string& otherwise) {
-  const nlohmann::json* given = take(name);
+  const nlohmann::json* given = take(name, otherwise);
   std::string value = otherwise;
   if (given) {
     if (!given->is_string())
@@ -93,7 +109,7 @@ std::string ParameterReader::text(const std::string& name, const std::string& ot
 }
 
 bool ParameterReader::flag(const std::string& name, bool otherwise) {
-  const nlohmann::json* given = take(name);
+  const nlohmann::json* given = take(name, otherwise);
   bool value = otherwise;
   if (given) {
     if (!given->is_boolean())
