@@ -75,11 +75,14 @@ class AreaJoining {
       if (!banded_[f]) voting_[base_[f]] += table_.faces[f].area / mean_face_area;
     }
     state_area_ = voting_;
-    parallel_for(
-        fits_.size(),
+  }
+
+  /// The surface of each area, before any is joined. False where it was cancelled.
+  bool fit(const Context& context) {
+    return watched_for(
+        fits_.size(), context, "areas",
         [&](std::size_t a) {
-          if (context_.cancelled()) return;
-          samples_[a] = thinned(std::move(samples_[a]), options.samples);
+          samples_[a] = thinned(std::move(samples_[a]), options_.samples);
           fits_[a] = fit_of(samples_[a]);
         },
         16);
@@ -87,7 +90,7 @@ class AreaJoining {
 
   const std::vector<FittedSurface>& surfaces() const { return fits_; }
 
-  std::vector<AreaJoin> run() {
+  std::vector<AreaJoin> run(const Context& context) {
     std::vector<float> heights;
     for (int k = 1; k <= options_.rounds; ++k)
       heights.push_back(static_cast<float>(k) / static_cast<float>(options_.rounds));
@@ -100,7 +103,7 @@ class AreaJoining {
                           : first + (1.0 - first) * static_cast<double>(round - 1) /
                                         static_cast<double>(heights.size() - 1);
       };
-      join_up_to(heights[k], context_.part(until(k), until(k + 1)));
+      join_up_to(heights[k], context.part(until(k), until(k + 1)));
     }
     return std::move(joins_);
   }
@@ -226,18 +229,19 @@ class AreaJoining {
     for (const auto& [a, b] : pairs) borders.push_back(&joining.border(a, b));
     const auto measure = [&](std::size_t k) { known_cost(*borders[k], pairs[k][0], pairs[k][1]); };
     if (!watched_for(pairs.size(), context.part(0.1, 0.9), "areas", measure, 16)) return;
-    std::size_t joined = 0;  // at most all but one
+    std::size_t joined = 0, asked = 0;  // joins: at most all but one
     joining.run(
         height,
         [&](AreaBorder& border, std::uint32_t a, std::uint32_t b) {
-          return known_cost(border, a, b);
-        },
-        [&](const auto& join, const AreaBorder& border) {
-          constexpr std::size_t pause = 64;
-          if (++joined % pause == 0)
+          constexpr std::size_t pause = 32;
+          if (++asked % pause == 0)
             context.report(
                 0.9 + 0.1 * static_cast<double>(joined) / static_cast<double>(parent_.size()),
                 "areas");
+          return known_cost(border, a, b);
+        },
+        [&](const auto& join, const AreaBorder& border) {
+          ++joined;
           this->join(join.into, join.gone, join.height, border);
         });
   }
@@ -311,8 +315,9 @@ JoinedAreas join_areas(AreasToJoin areas, const AreaJoiningOptions& options,
                        const Context& context) {
   AreaJoining joining(std::move(areas), options, context);
   JoinedAreas result;
+  if (!joining.fit(context.part(0.0, 0.3))) return result;
   result.surfaces = joining.surfaces();
-  result.joins = joining.run();
+  result.joins = joining.run(context.part(0.3, 1.0));
   return result;
 }
 

@@ -62,7 +62,7 @@ std::string histogram_svg(const Distribution& distribution, const HistogramPictu
     svg += line(left, y_of(share), width - right, y_of(share), "stroke=\"#e3e6e9\"");
     svg += text(left - 6.0, y_of(share) + 4.0, "end", words);
   }
-  if (!distribution.empty() && range > 0.0) {
+  if (!distribution.empty() && range > 0.0 && std::isfinite(range)) {
     const Distribution::Bins found = distribution.bins(picture.low, picture.high, bins, false);
     for (std::size_t k = 0; k < found.shares.size(); ++k) {
       if (!(found.shares[k] > least_share)) continue;

@@ -83,6 +83,14 @@ std::string spaced(std::string key) {
   return key;
 }
 
+/// Whether a parameter of a step means anything with the method that was chosen.
+bool counts(const nlohmann::json& parameters, const std::string& key) {
+  const std::string method = parameters.value("method", "");
+  if (method == "surfaces") return key != "criterion" && key != "intervals" && key != "fill_holes";
+  return (method != "fronts" || key != "detail") &&
+         (method != "normal_jump" || key != "candidates");
+}
+
 std::string value_text(const nlohmann::json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return number_text(value.get<double>(), 4);
@@ -283,7 +291,8 @@ class ReportMaker {
       if (!step) continue;
       std::string parameters;
       for (const auto& [key, value] : step->parameters.items())
-        parameters += (parameters.empty() ? "" : ", ") + (spaced(key) + " " + value_text(value));
+        if (counts(step->parameters, key))
+          parameters += (parameters.empty() ? "" : ", ") + (spaced(key) + " " + value_text(value));
       const OperationKind* kind = find_operation(name);
       rows += "<tr>" + cell(std::string(kind ? kind->title : name), false) +
               cell(parameters + (step->out_of_date ? "; out of date" : ""), false) + "</tr>\n";

@@ -95,6 +95,11 @@ TEST_F(Reports, TellWhatTheSummaryTells) {
   std::multiset<std::string> types;
   for (const auto& row : partitions) types.insert(row[5]);
   EXPECT_EQ(types, (std::multiset<std::string>{"cylinder", "plane", "plane"}));
+  const auto steps = rows_after(page, "Steps");
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_NE(steps[0][1].find("method normal_jump"), std::string::npos) << steps[0][1];
+  EXPECT_EQ(steps[0][1].find("candidates"), std::string::npos) << "the walk's alone";
+  EXPECT_EQ(steps[1][1].find("intervals"), std::string::npos) << "the fronts' alone";
   EXPECT_NE(page.find("<th align=\"right\""), std::string::npos);
   EXPECT_NE(page.find("Length (mm)"), std::string::npos);
   EXPECT_NE(page.find("<li>Find sharp lines, "), std::string::npos);

@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDir>
+#include <QDockWidget>
 #include <QFile>
 #include <QImage>
 #include <QMenu>
@@ -14,6 +15,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QSlider>
 #include <QStandardPaths>
@@ -505,6 +507,32 @@ TEST_F(MainWindowTest, EveryFieldIsShownByAKeyOfItsOwn) {
     QTest::keyClick(window.get(), static_cast<Qt::Key>(key), Qt::AltModifier);
     EXPECT_EQ(window->fields().field(), info.field);
   }
+}
+
+TEST_F(MainWindowTest, FitsTheScreenItOpensOnAndItsLayoutCanBeReset) {
+  const QSize screen = QGuiApplication::primaryScreen()->availableSize();
+  // As it was closed on a larger screen.
+  window->resize(screen.width() + 500, screen.height() + 400);
+  auto* lines = window->findChild<QDockWidget*>("lines");
+  ASSERT_NE(lines, nullptr);
+  const Qt::DockWidgetArea area = window->dockWidgetArea(lines);
+  lines->hide();
+  window->close();
+  window = std::make_unique<MainWindow>();
+  window->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+  EXPECT_LE(window->width(), screen.width());
+  EXPECT_LE(window->height(), screen.height());
+  lines = window->findChild<QDockWidget*>("lines");
+  EXPECT_TRUE(lines->isHidden()) << "the layout is remembered";
+  window->addDockWidget(Qt::BottomDockWidgetArea, lines);
+  QAction* reset = nullptr;
+  for (QAction* a : window->findChildren<QAction*>())
+    if (a->text() == "&Reset layout") reset = a;
+  ASSERT_NE(reset, nullptr);
+  reset->trigger();
+  EXPECT_FALSE(lines->isHidden());
+  EXPECT_EQ(window->dockWidgetArea(lines), area);
 }
 
 }  // namespace

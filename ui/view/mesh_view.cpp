@@ -466,7 +466,12 @@ QImage MeshView::picture(const PictureOptions& options) {
       std::min(options.size.width() / size.width(), options.size.height() / size.height());
   GlCanvas::Frame frame;
   frame.camera = impl_->camera;
-  frame.camera.set_height(impl_->camera.height() * options.size.height() / (scale * size.height()));
+  frame.camera.set_height(options.height > 0.0 ? options.height
+                                               : impl_->camera.height() * options.size.height() /
+                                                     (scale * size.height()));
+  // Fitted, it lies beside scalar bar and legend; to scale it is wanted whole.
+  if (options.height > 0.0 && is_fitted())
+    frame.camera.set_focus(0.5 * (impl_->mesh->box_min() + impl_->mesh->box_max()));
   frame.pixels = options.size;
   frame.pixel_ratio = scale;
   impl_->scene.set_ground(options.background, options.background);
@@ -477,12 +482,12 @@ QImage MeshView::picture(const PictureOptions& options) {
   update();
   if (image.isNull()) return {};
 
-  Overlay overlay = impl_->overlay(impl_->camera, impl_->camera.units_per_pixel(size));
+  const QSizeF picture_size = QSizeF(options.size) / scale;
+  Overlay overlay = impl_->overlay(frame.camera, frame.camera.units_per_pixel(picture_size));
   if (options.background.alpha() > 0) overlay.dark = !is_light(options.background);
   if (!options.scalar_bar) overlay.field.reset();
   overlay.scale_bar = overlay.scale_bar && options.scale_bar;
   overlay.orientation_marker = overlay.orientation_marker && options.orientation_marker;
-  const QSizeF picture_size = QSizeF(options.size) / scale;
   ToolOverlay tools = impl_->tools(frame.camera, picture_size);
   tools.dark = overlay.dark;
   tools.ring.clear();
@@ -492,6 +497,11 @@ QImage MeshView::picture(const PictureOptions& options) {
   painter.scale(scale, scale);
   paint_tools(painter, picture_size, tools);
   painter.end();
+  if (options.dots_per_inch > 0.0) {
+    const int dots = static_cast<int>(std::lround(options.dots_per_inch / 0.0254));
+    image.setDotsPerMeterX(dots);
+    image.setDotsPerMeterY(dots);
+  }
   return options.background.alpha() == 255
              ? image.convertToFormat(QImage::Format_RGB32)
              : image.convertToFormat(QImage::Format_ARGB32_Premultiplied);

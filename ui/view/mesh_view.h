@@ -87,7 +87,10 @@ struct Pick {
 };
 
 struct PictureOptions {
-  QSize size = {1600, 1200};  // pixels of the picture
+  QSize size = {1600, 1200};   // pixels of the picture
+  double dots_per_inch = 0.0;  // as the file says; 0: nothing
+  /// What of the part the height of the picture shows, in its unit; 0: at least what the view does.
+  double height = 0.0;
   bool scalar_bar = true;
   bool scale_bar = true;
   bool orientation_marker = true;

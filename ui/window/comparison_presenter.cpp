@@ -402,6 +402,7 @@ QImage ComparisonPresenter::picture(const PictureOptions& options) {
   const int caption = static_cast<int>(65 * scale);
   PictureOptions half = options;
   half.size = {(whole.width() - gap) / 2, whole.height() - caption};
+  half.height *= static_cast<double>(half.size.height()) / whole.height();
   if (half.size.height() < caption) return {};
   QImage result(whole, QImage::Format_ARGB32_Premultiplied);
   result.fill(options.background);

@@ -10,11 +10,13 @@
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -190,9 +192,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(named_views_, &NamedViewsPresenter::message, this,
           [this](const QString& text) { statusBar()->showMessage(text, 4000); });
 
+  first_layout_ = saveState();
   const QSettings settings;
   restoreGeometry(settings.value("window/geometry").toByteArray());
   restoreState(settings.value("window/state").toByteArray());
+  fit_screen();
   treatment_bar_->hide();  // even where the window was closed during a treatment
   findChild<QToolBar*>("tools")->show();
   section_bar_->hide();
@@ -315,6 +319,30 @@ void MainWindow::make_status_bar() {
     // A field stops where another one is chosen.
     cancel_->setVisible(session_->busy() || reports_->writing());
   });
+}
+
+void MainWindow::fit_screen() {
+  const QScreen* on = QGuiApplication::screenAt(geometry().center());
+  if (!on) on = QGuiApplication::primaryScreen();
+  if (!on) return;
+  // With the frame, of which nothing is known before the window was shown.
+  constexpr int frame = 32;
+  const QRect room = on->availableGeometry();
+  resize(size().boundedTo(room.size() - QSize(0, frame)));
+  const QRect here(pos(), size());
+  if (!room.contains(here))
+    move(std::clamp(here.left(), room.left(), std::max(room.left(), room.right() - width() + 1)),
+         std::clamp(here.top(), room.top(),
+                    std::max(room.top(), room.bottom() - height() - frame + 1)));
+}
+
+void MainWindow::reset_layout() {
+  // Bars that come and go by themselves stay as they are.
+  const bool treatment = treatment_bar_->isVisible(), section = section_bar_->isVisible();
+  restoreState(first_layout_);
+  treatment_bar_->setVisible(treatment);
+  section_bar_->setVisible(section);
+  fit_screen();
 }
 
 void MainWindow::show_working() {

@@ -120,6 +120,9 @@ class MainWindow : public QMainWindow {
   void take_opened();
   void refresh_title();
   void show_load_report();
+  /// Makes the window no larger than its screen, and puts it there.
+  void fit_screen();
+  void reset_layout();
   void show_about();
   void remember_recent(const QString& path);
   void refresh_recent();
@@ -199,6 +202,7 @@ class MainWindow : public QMainWindow {
   QStringList located_;
 
   FocusRing* focus_ring_;
+  QByteArray first_layout_;
   QLabel* hover_label_;
   QLabel* counts_label_;
   QProgressBar* progress_;

@@ -69,6 +69,7 @@ void MainWindow::make_file_menu() {
   connect(copy_picture_, &QAction::triggered, this, [this] {
     PictureOptions options = picture_options_;
     options.size = stack_->size() * view_->devicePixelRatioF();
+    options.dots_per_inch = options.height = 0.0;  // as on the screen
     QApplication::clipboard()->setImage(picture(options));
   });
   export_ = action(file, tr("&Export results…"), QKeySequence("Ctrl+E"),
@@ -169,6 +170,10 @@ void MainWindow::make_view_menu() {
   panels_menu_ = look->addMenu(tr("Pa&nels"));
   for (QDockWidget* dock : findChildren<QDockWidget*>())
     panels_menu_->addAction(dock->toggleViewAction());
+  panels_menu_->addSeparator();
+  connect(action(panels_menu_, tr("&Reset layout"), {},
+                 tr("All panels where they were at first, the window inside the screen")),
+          &QAction::triggered, this, &MainWindow::reset_layout);
 }
 
 void MainWindow::make_field_menu(QMenu* menu) {

@@ -304,7 +304,10 @@ QImage MainWindow::picture(const PictureOptions& options) {
 
 void MainWindow::choose_picture() {
   picture_options_.scalar_bar = true;
-  PictureDialog dialog(picture_options_, stack_->size(), !named_views_->views().empty(), this);
+  const LengthUnit unit = length_unit_of(session_->current().document);
+  PictureDialog dialog(picture_options_,
+                       {stack_->size(), !named_views_->views().empty(), info_of(unit).millimetres},
+                       this);
   if (dialog.exec() != QDialog::Accepted) return;
   picture_options_ = dialog.options();
   if (dialog.each_view()) {

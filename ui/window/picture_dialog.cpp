@@ -1,36 +1,63 @@
 #include "ui/window/picture_dialog.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QDoubleSpinBox>
 #include <QFormLayout>
+#include <QLabel>
 #include <QPushButton>
+#include <QSettings>
 #include <QSpinBox>
 
 namespace arris::ui {
 
 namespace {
 
-QSpinBox* pixels(int value, QWidget* parent) {
-  auto* box = new QSpinBox(parent);
-  box->setRange(64, 8192);
-  box->setSuffix(QObject::tr(" px"));
-  box->setValue(value);
-  box->setGroupSeparatorShown(false);
-  return box;
-}
+constexpr double least_pixels = 64.0, most_pixels = 16000.0;
+constexpr double inch = 25.4;  // mm
+
+struct Scale {
+  const char* text;
+  double factor;  // mm of paper for one of the part
+};
+
+constexpr Scale scales[] = {{"10:1", 10.0}, {"5:1", 5.0},   {"2:1", 2.0},  {"1:1", 1.0},
+                            {"1:2", 0.5},   {"1:5", 0.2},   {"1:10", 0.1}, {"1:20", 0.05},
+                            {"1:50", 0.02}, {"1:100", 0.01}};
 
 }  // namespace
 
-PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, bool named_views,
-                             QWidget* parent)
-    : QDialog(parent) {
+PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QWidget* parent)
+    : QDialog(parent), part_(part), given_(options) {
   setWindowTitle(tr("Save picture"));
+  setObjectName("picture_dialog");
+  const QSettings settings;
   auto* form = new QFormLayout(this);
-  width_ = pixels(options.size.width(), this);
-  height_ = pixels(options.size.height(), this);
+  unit_ = new QComboBox(this);
+  unit_->setObjectName("picture_unit");
+  unit_->addItems({tr("Pixels"), tr("Millimetres")});
+  const auto length = [this](const char* name) {
+    auto* box = new QDoubleSpinBox(this);
+    box->setObjectName(name);
+    box->setGroupSeparatorShown(false);
+    return box;
+  };
+  width_ = length("picture_width");
+  height_ = length("picture_height");
+  dots_ = new QSpinBox(this);
+  dots_->setObjectName("picture_dots");
+  dots_->setRange(50, 1200);
+  dots_->setSuffix(tr(" dpi"));
+  dots_->setValue(settings.value("pictures/dots", 300).toInt());
+  scale_ = new QComboBox(this);
+  scale_->setObjectName("picture_scale");
+  scale_->addItem(tr("As in the view"), 0.0);
+  for (const Scale& one : scales) scale_->addItem(one.text, one.factor);
+  pixels_ = new QLabel(this);
   keep_proportion_ = new QCheckBox(tr("Proportion of the view"), this);
   keep_proportion_->setChecked(true);
   scalar_bar_ = new QCheckBox(tr("Scalar bar"), this);
@@ -43,8 +70,12 @@ PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, boo
   background_->addItem(tr("White"), QColor(Qt::white));
   background_->addItem(tr("Transparent"), QColor(Qt::transparent));
   background_->addItem(tr("Dark"), QColor(38, 40, 44));
+  form->addRow(tr("Size in"), unit_);
   form->addRow(tr("Width"), width_);
   form->addRow(tr("Height"), height_);
+  form->addRow(tr("Resolution"), dots_);
+  form->addRow(tr("Scale"), scale_);
+  form->addRow(QString(), pixels_);
   form->addRow(QString(), keep_proportion_);
   form->addRow(tr("Ground"), background_);
   form->addRow(QString(), scalar_bar_);
@@ -52,9 +83,9 @@ PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, boo
   form->addRow(QString(), marker_);
   each_view_ = new QCheckBox(tr("One for each named view"), this);
   each_view_->setObjectName("each_view");
-  each_view_->setEnabled(named_views);
-  each_view_->setToolTip(named_views ? tr("All of them at once, into a folder")
-                                     : tr("No view was kept yet: View ▸ Named views"));
+  each_view_->setEnabled(part.named_views);
+  each_view_->setToolTip(part.named_views ? tr("All of them at once, into a folder")
+                                          : tr("No view was kept yet: View ▸ Named views"));
   form->addRow(QString(), each_view_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel, this);
   buttons->button(QDialogButtonBox::Save)->setText(tr("Save as…"));
@@ -62,30 +93,99 @@ PictureDialog::PictureDialog(const PictureOptions& options, QSize view_size, boo
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 
+  refresh();
+  width_->setValue(options.size.width());
+  height_->setValue(options.size.height());
   const double proportion =
-      view_size.height() > 0 ? double(view_size.width()) / view_size.height() : 4.0 / 3.0;
-  const auto follow = [this, proportion](QSpinBox* to, bool to_width) {
+      part.view_size.height() > 0
+          ? static_cast<double>(part.view_size.width()) / part.view_size.height()
+          : 4.0 / 3.0;
+  const auto follow = [this, proportion](QDoubleSpinBox* to, bool to_width) {
     if (!keep_proportion_->isChecked()) return;
     const QSignalBlocker quiet(to);
-    to->setValue(static_cast<int>(
-        std::lround(to_width ? height_->value() * proportion : width_->value() / proportion)));
+    to->setValue(to_width ? height_->value() * proportion : width_->value() / proportion);
   };
-  connect(width_, &QSpinBox::valueChanged, this, [=, this] { follow(height_, false); });
-  connect(height_, &QSpinBox::valueChanged, this, [=, this] { follow(width_, true); });
-  connect(keep_proportion_, &QCheckBox::toggled, this, [=, this] { follow(height_, false); });
+  connect(width_, &QDoubleSpinBox::valueChanged, this, [=, this] {
+    follow(height_, false);
+    refresh();
+  });
+  connect(height_, &QDoubleSpinBox::valueChanged, this, [=, this] {
+    follow(width_, true);
+    refresh();
+  });
+  connect(keep_proportion_, &QCheckBox::toggled, this, [=, this] {
+    follow(height_, false);
+    refresh();
+  });
+  connect(dots_, &QSpinBox::valueChanged, this, &PictureDialog::refresh);
+  connect(unit_, &QComboBox::currentIndexChanged, this, &PictureDialog::change_unit);
   follow(height_, false);
+  if (settings.value("pictures/millimetres", false).toBool()) unit_->setCurrentIndex(1);
+  refresh();
 }
 
-bool PictureDialog::each_view() const { return each_view_->isChecked(); }
+bool PictureDialog::in_millimetres() const { return unit_->currentIndex() == 1; }
+
+double PictureDialog::dots_per_millimetre() const {
+  return in_millimetres() ? dots_->value() / inch : 1.0;
+}
+
+void PictureDialog::change_unit() {
+  const bool now = in_millimetres();
+  if (now == were_millimetres_) return;
+  were_millimetres_ = now;
+  const double factor = now ? inch / dots_->value() : dots_->value() / inch;
+  const double width = width_->value() * factor, height = height_->value() * factor;
+  const QSignalBlocker quiet_width(width_), quiet_height(height_);
+  refresh();  // with the ranges that these are in
+  width_->setValue(width);
+  height_->setValue(height);
+  refresh();
+}
+
+void PictureDialog::refresh() {
+  const bool millimetres = in_millimetres();
+  for (QDoubleSpinBox* box : {width_, height_}) {
+    const QSignalBlocker quiet(box);
+    box->setDecimals(millimetres ? 1 : 0);
+    box->setSuffix(millimetres ? tr(" mm") : tr(" px"));
+    box->setRange(least_pixels / dots_per_millimetre(), most_pixels / dots_per_millimetre());
+  }
+  dots_->setEnabled(millimetres);
+  const bool to_scale = millimetres && part_.millimetres > 0.0;
+  scale_->setEnabled(to_scale);
+  scale_->setToolTip(to_scale      ? tr("Of lengths on paper to those of the part")
+                     : millimetres ? tr("The unit of the part is not known: Part ▸ Unit of lengths")
+                                   : tr("Pixels have no length: choose millimetres"));
+  const QSize size = options().size;
+  pixels_->setText(tr("%1 × %2 pixels").arg(size.width()).arg(size.height()));
+}
 
 PictureOptions PictureDialog::options() const {
-  PictureOptions options;
-  options.size = {width_->value(), height_->value()};
+  PictureOptions options = given_;
+  const auto pixels = [this](const QDoubleSpinBox* box) {
+    return static_cast<int>(
+        std::lround(std::clamp(box->value() * dots_per_millimetre(), least_pixels, most_pixels)));
+  };
+  options.size = {pixels(width_), pixels(height_)};
+  options.dots_per_inch = in_millimetres() ? dots_->value() : 0.0;
+  const double scale = scale_->isEnabled() ? scale_->currentData().toDouble() : 0.0;
+  options.height =
+      scale > 0.0 ? options.size.height() / dots_per_millimetre() / scale / part_.millimetres : 0.0;
   options.scalar_bar = scalar_bar_->isChecked();
   options.scale_bar = scale_bar_->isChecked();
   options.orientation_marker = marker_->isChecked();
   options.background = background_->currentData().value<QColor>();
   return options;
+}
+
+bool PictureDialog::each_view() const { return each_view_->isChecked(); }
+
+void PictureDialog::accept() {
+  QSettings settings;
+  settings.setValue("pictures/millimetres", in_millimetres());
+  settings.setValue("pictures/dots", dots_->value());
+  QDialog::accept();
 }
 
 }  // namespace arris::ui

@@ -6,29 +6,52 @@
 
 class QCheckBox;
 class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
 class QSpinBox;
 
 namespace arris::ui {
 
-/// Asks for size and contents of a picture before it is saved.
+/// Asks for size and contents of a picture before it is saved: in pixels, or in millimetres of
+/// paper at so many dots per inch, and then also to scale. What was chosen is remembered.
 class PictureDialog : public QDialog {
   Q_OBJECT
  public:
-  /// Opens with `options`; the width follows the height in the proportion of `view_size`.
-  /// `named_views`: there are some to make pictures of.
-  PictureDialog(const PictureOptions& options, QSize view_size, bool named_views, QWidget* parent);
+  struct Part {
+    QSize view_size;           ///< The width follows the height in its proportion.
+    bool named_views = false;  ///< There are some to make pictures of.
+    double millimetres =
+        0.0;  ///< Of one unit of the part; 0: not known, so that there is no scale.
+  };
+  /// Opens with `options`.
+  PictureDialog(const PictureOptions& options, const Part& part, QWidget* parent);
   PictureOptions options() const;
   bool each_view() const;  ///< A picture of each named view instead of one of this.
 
+  void accept() override;
+
  private:
-  QSpinBox* width_;
-  QSpinBox* height_;
+  bool in_millimetres() const;
+  double dots_per_millimetre() const;
+  /// Sizes in the unit that is chosen now.
+  void change_unit();
+  void refresh();
+
+  Part part_;
+  PictureOptions given_;
+  QComboBox* unit_;
+  QDoubleSpinBox* width_;
+  QDoubleSpinBox* height_;
+  QSpinBox* dots_;
+  QComboBox* scale_;
+  QLabel* pixels_;
   QCheckBox* keep_proportion_;
   QCheckBox* scalar_bar_;
   QCheckBox* scale_bar_;
   QCheckBox* marker_;
   QComboBox* background_;
   QCheckBox* each_view_;
+  bool were_millimetres_ = false;
 };
 
 }  // namespace arris::ui

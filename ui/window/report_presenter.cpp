@@ -197,15 +197,14 @@ void ReportPresenter::write(ReportRequest request, bool paper,
   emit writing_changed(true);
   const auto history = std::make_shared<const History>(session_->history().copy_to_save());
   work_->start(
-      [history, request](const Context& context) {
-        return write_report(*history, request, context);
+      [history, request, folder, paper](const Context& context) {
+        const Result<void> written = write_report(*history, request, context);
+        if (!written) return QString::fromStdString(written.error().message);
+        if (!paper) return QString();
+        return write_paper(QDir(folder).filePath(report_name), QDir(folder).filePath("report.pdf"));
       },
-      [this, folder, paper, then = std::move(then)](const Result<void>& written) {
+      [this, then = std::move(then)](const QString& error) {
         emit writing_changed(false);
-        QString error = written ? QString() : QString::fromStdString(written.error().message);
-        if (error.isEmpty() && paper)
-          error =
-              write_paper(QDir(folder).filePath(report_name), QDir(folder).filePath("report.pdf"));
         then(error);
       },
       [this](double fraction, std::string_view what) {
