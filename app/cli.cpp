@@ -217,7 +217,13 @@ struct ResultPlaces {
 Result<void> check_results(const ResultPlaces& places) {
   const std::string& folder = places.folder;
   if (const auto ready = check_folder_writable(folder); !ready) return ready;
-  if (!places.session.empty())
+  // Beside the results it lies in a folder that may have to be made with them.
+  std::error_code unknown;
+  const auto above = std::filesystem::path(places.session).parent_path();
+  const bool beside = std::filesystem::weakly_canonical(above, unknown) ==
+                          std::filesystem::weakly_canonical(folder, unknown) &&
+                      !std::filesystem::exists(folder, unknown);
+  if (!places.session.empty() && !beside)
     if (const auto ready = check_writable(places.session); !ready) return ready;
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) return {};

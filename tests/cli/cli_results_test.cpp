@@ -445,5 +445,15 @@ INSTANTIATE_TEST_SUITE_P(Data, RealScan,
                                            "pairs/block_n1.obj", "real/iron_realscan.ply",
                                            "real/TR12J_OCC64K.stl"));
 
+TEST_F(Cli, ASessionMayLieInTheFolderThatIsMadeForTheResults) {
+  const std::string scan = write_mesh(folder, "part.ply", capped_cylinder(5.0, 12.0, 24, 8, 4));
+  const std::string place = folder.file("new/results");
+  expect_done({"segment", scan, "-o", place, "--session", place + "/part.arris"});
+  expect_done({"replay", place + "/part.arris", "-o", folder.file("again")});
+  expect_bad_input(
+      {"segment", scan, "-o", folder.file("other"), "--session", folder.file("nowhere/part.arris")},
+      "nowhere");
+}
+
 }  // namespace
 }  // namespace arris

@@ -38,7 +38,7 @@ class ExportResults : public MainWindowTest {
     });
     timer.start(20);
     QTest::keyClick(window.get(), Qt::Key_E, Qt::ControlModifier);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return asked; }, patience));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return asked && !window->exporting(); }, patience));
   }
   static QListWidgetItem* item_of(ExportDialog& dialog, const QString& name) {
     auto* files = dialog.findChild<QListWidget*>("export_files");

@@ -615,6 +615,7 @@ TEST_F(Saving, ExportIsNamedByThePartAndAsksBeforeItReplaces) {
       dialog->accept();
     });
     press(*window, QKeySequence("Ctrl+E"));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window->exporting(); }, patience));
   };
   export_again();
   const QByteArray first = lines();

@@ -8,6 +8,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QEventLoop>
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QGuiApplication>
@@ -31,6 +32,7 @@
 #include "ui/panels/unit_bar.h"
 #include "ui/window/about_dialog.h"
 #include "ui/window/hover_text.h"
+#include "ui/window/latest_work.h"
 #include "ui/window/named_views_presenter.h"
 #include "ui/window/report_presenter.h"
 #include "ui/window/tab_order.h"
@@ -92,6 +94,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   side_by_side_->set_strip(unit_bar);
   units_ = new UnitPresenter(session_, unit_bar, this);
   make_guidance();
+  export_work_ = new LatestWork(this);
   named_views_ = new NamedViewsPresenter([this] { return view_keepers(); }, this);
   reports_ = new ReportPresenter(
       session_, [this] { return view_keepers(); }, [this](bool shown) { show_partitions(shown); },
@@ -368,6 +371,14 @@ void MainWindow::show_partitions(bool shown) {
   (shown ? show_partitions_ : show_field_)->setChecked(true);
 }
 
+bool MainWindow::exporting() const { return export_work_->running(); }
+
+void MainWindow::wait_until_exported() {
+  while (exporting())
+    QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
+                                    QEventLoop::WaitForMoreEvents);
+}
+
 void MainWindow::show_about() { AboutDialog(*session_, this).exec(); }
 
 void MainWindow::refresh_history() {
@@ -444,6 +455,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
+  wait_until_exported();
   session_->wait_until_saved();
   QSettings settings;
   settings.setValue("window/geometry", saveGeometry());

@@ -37,6 +37,7 @@ class FocusRing;
 
 class HistoryPanel;
 class SectionBar;
+class LatestWork;
 class NamedViewsPresenter;
 class ReportPresenter;
 class StartPage;
@@ -71,6 +72,9 @@ class MainWindow : public QMainWindow {
   ComparisonPresenter& comparison() { return *comparison_; }
   ReportPresenter& reports() { return *reports_; }
   NamedViewsPresenter& named_views() { return *named_views_; }
+  bool exporting() const;  ///< Files are being written.
+  /// Returns once they are. The window is drawn meanwhile, and takes no input.
+  void wait_until_exported();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -208,6 +212,7 @@ class MainWindow : public QMainWindow {
   QProgressBar* progress_;
   QPushButton* cancel_;
   QTimer* progress_delay_;
+  LatestWork* export_work_;
   QTimer* view_rest_;  // until the view is kept for after a crash
   PictureOptions picture_options_;
 };

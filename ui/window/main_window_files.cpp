@@ -23,6 +23,7 @@
 #include "ui/panels/controls.h"
 #include "ui/panels/start_page.h"
 #include "ui/window/export_dialog.h"
+#include "ui/window/latest_work.h"
 #include "ui/window/main_window.h"
 #include "ui/window/named_views_presenter.h"
 #include "ui/window/picture_dialog.h"
@@ -373,6 +374,7 @@ bool MainWindow::may_replace(const QStringList& names, const QString& folder) {
 }
 
 void MainWindow::export_results() {
+  wait_until_exported();  // one after the other
   // Named by the part, so that results of several parts fit into one folder.
   ExportDialog dialog(QFileInfo(session_->part_name()).completeBaseName() + "_", this);
   if (dialog.exec() != QDialog::Accepted) return;
@@ -386,13 +388,27 @@ void MainWindow::export_results() {
     if (QFileInfo::exists(path(*file))) there << dialog.name_of(*file);
   }
   if (!there.isEmpty() && !may_replace(there, dialog.folder())) return;
-  Result<void> written;
-  for (const ResultFile* file : files)
-    if (written) written = file->write(path(*file).toStdString(), session_->history());
-  if (written)
-    statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), dialog.folder()), 8000);
-  else
-    QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
+  std::vector<std::pair<const ResultFile*, std::string>> wanted;
+  for (const ResultFile* file : files) wanted.emplace_back(file, path(*file).toStdString());
+  // A copy, which shares the document: surfaces are fitted for some of the files, and the window
+  // goes on meanwhile.
+  const auto history = std::make_shared<const History>(session_->history().copy_to_save());
+  statusBar()->showMessage(tr("Writing %1 …").arg(all.join(", ")));
+  export_work_->start(
+      [history, wanted](const Context& context) {
+        Result<void> written;
+        for (const auto& [file, where] : wanted)
+          if (written && !context.cancelled()) written = file->write(where, *history);
+        return written;
+      },
+      [this, all, folder = dialog.folder()](const Result<void>& written) {
+        if (written) {
+          statusBar()->showMessage(tr("%1 written to %2").arg(all.join(", "), folder), 8000);
+        } else {
+          statusBar()->clearMessage();
+          QMessageBox::warning(this, "Arris", QString::fromStdString(written.error().message));
+        }
+      });
 }
 
 void MainWindow::show_load_report() {
