@@ -37,7 +37,7 @@ QString write_paper(const QString& page, const QString& path) {
   QFile file(page);
   if (!file.open(QIODevice::ReadOnly))
     return QObject::tr("%1 could not be read again: %2").arg(page, file.errorString());
-  const QString html = QString::fromUtf8(file.readAll());
+  QString html = QString::fromUtf8(file.readAll());
   QFile out(path);
   if (!out.open(QIODevice::WriteOnly))
     return QObject::tr("%1 could not be written: %2").arg(path, out.errorString());
@@ -51,11 +51,15 @@ QString write_paper(const QString& page, const QString& path) {
   document.setDefaultFont(QFont("sans-serif", 9));
   document.setDocumentMargin(0.0);
   document.documentLayout()->setPaintDevice(&writer);
-  static const QRegularExpression source("<img[^>]*src=\"([^\"]+)\"");
-  for (auto found = source.globalMatch(html); found.hasNext();) {
-    const QString name = found.next().captured(1);
-    document.addResource(QTextDocument::ImageResource, QUrl(name),
-                         QImage(QFileInfo(page).absoluteDir().filePath(name)));
+  static const QRegularExpression source("<img[^>]*src=\"([^\"]+)\"[^>]*>");
+  for (auto found = source.globalMatch(QString(html)); found.hasNext();) {
+    const QRegularExpressionMatch picture = found.next();
+    const QString name = picture.captured(1);
+    const QImage image(QFileInfo(page).absoluteDir().filePath(name));
+    document.addResource(QTextDocument::ImageResource, QUrl(name), image);
+    // As histograms are where Qt has no reader of SVG.
+    if (image.isNull())
+      html.replace(picture.captured(0), QObject::tr("(%1 could not be read)").arg(name));
   }
   document.setHtml(html);
   const QRectF paper = writer.pageLayout().paintRectPixels(dots_per_inch);
