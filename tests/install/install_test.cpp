@@ -192,19 +192,6 @@ TEST_F(Installed, SessionIsKnownByItsContent) {
   }
 }
 
-TEST_F(Installed, IconIsTheDrawing) {
-  if (!is_there("rsvg-convert") || !is_there("compare"))
-    GTEST_SKIP() << "no rsvg-convert or no compare here";
-  const std::string drawn = shared_->file("drawn.png"), icons = data("icons/hicolor/");
-  ASSERT_EQ(
-      run("rsvg-convert -w 256 -h 256 '" + icons + "scalable/apps/org.arris.Arris.svg' -o " + drawn)
-          .code,
-      0);
-  const Ended compared = run("compare -metric AE -fuzz 5% '" + icons +
-                             "256x256/apps/org.arris.Arris.png' " + drawn + " null:");
-  EXPECT_LT(std::stod(compared.text), 0.005 * 256 * 256) << compared.text << " pixels differ";
-}
-
 #endif
 
 // ---- manual ----

@@ -1,9 +1,12 @@
 // The log, what About tells, and that a report tells nothing that is private.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <QApplication>
 #include <QClipboard>
 #include <QFile>
+#include <QImageReader>
 #include <QLabel>
 #include <QPushButton>
 #include <QStandardPaths>
@@ -86,6 +89,29 @@ TEST_F(About, TellsWhatItIsMadeOfAndCopiesAReportWithoutNames) {
     EXPECT_TRUE(report.contains(part)) << qPrintable(part + " is not in " + report);
   for (const QString& secret : {QString("Geheimteil"), folder.path(), QDir::homePath() + "/"})
     EXPECT_FALSE(report.contains(secret)) << qPrintable(report);
+}
+
+TEST(Icon, OfTheWindowIsTheDrawing) {
+  const QString place = QString(ARRIS_SOURCE_DIR) + "/resources/install/org.arris.Arris";
+  const QImage window = QImage(place + ".png").convertToFormat(QImage::Format_ARGB32);
+  ASSERT_EQ(window.size(), QSize(256, 256));
+  QImageReader reader(place + ".svg");
+  reader.setScaledSize(window.size());
+  const QImage drawn = reader.read().convertToFormat(QImage::Format_ARGB32);
+  ASSERT_EQ(drawn.size(), window.size()) << reader.errorString().toStdString();
+  int differ = 0, opaque = 0;
+  for (int y = 0; y < window.height(); ++y)
+    for (int x = 0; x < window.width(); ++x) {
+      const QColor a = window.pixelColor(x, y), b = drawn.pixelColor(x, y);
+      opaque += a.alpha() == 255;
+      const int most = std::max({std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+                                 std::abs(a.blue() - b.blue())});
+      // Colours under nothing do not show; edges are smoothed by each renderer in its own way.
+      differ += std::abs(a.alpha() - b.alpha()) > 64 ||
+                (std::min(a.alpha(), b.alpha()) > 200 && most > 13);
+    }
+  EXPECT_GT(opaque, 256 * 256 / 4);
+  EXPECT_LT(differ, 256 * 256 / 200);
 }
 
 }  // namespace

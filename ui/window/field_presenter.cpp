@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <QCoreApplication>
-#include <QEventLoop>
-
 #include "core/base/number_text.h"
 #include "core/mesh/face_quality.h"
 #include "core/simplification/occupancy.h"
@@ -131,12 +128,6 @@ void FieldPresenter::show(const Document& document) {
   if (!is_available(field_)) field_ = Field::kabs;
   load();
   refresh();
-}
-
-void FieldPresenter::wait_until_there() {
-  while (working())
-    QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
-                                    QEventLoop::WaitForMoreEvents);
 }
 
 void FieldPresenter::set_field(Field field) {

@@ -38,7 +38,7 @@ class FieldPresenter : public QObject {
   /// The field is still being worked out.
   bool working() const { return work_->running(); }
   /// Returns once the field is there. The window is drawn meanwhile, and takes no input.
-  void wait_until_there();
+  void wait_until_there() const { work_->wait(); }
   const Distribution& distribution() const { return distribution_; }
   /// The field shown, in the same colours and range, of another document; absent where it has not
   /// got it, or not yet: then changed() tells when it has.

@@ -5,6 +5,8 @@
 #include <stop_token>
 #include <utility>
 
+#include <QCoreApplication>
+#include <QEventLoop>
 #include <QObject>
 #include <QThreadPool>
 
@@ -49,6 +51,13 @@ class LatestWork : public QObject {
     running_ = false;
   }
   bool running() const { return running_; }
+  /// Returns once nothing runs. The window is drawn meanwhile, and takes no input but that of a
+  /// question that a result leads to.
+  void wait() const {
+    while (running())
+      QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
+                                      QEventLoop::WaitForMoreEvents);
+  }
 
  private:
   QThreadPool pool_;

@@ -8,7 +8,6 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QEventLoop>
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QGuiApplication>
@@ -373,12 +372,6 @@ void MainWindow::show_partitions(bool shown) {
 
 bool MainWindow::exporting() const { return export_work_->running(); }
 
-void MainWindow::wait_until_exported() {
-  while (exporting())
-    QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents |
-                                    QEventLoop::WaitForMoreEvents);
-}
-
 void MainWindow::show_about() { AboutDialog(*session_, this).exec(); }
 
 void MainWindow::refresh_history() {
@@ -455,7 +448,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
-  wait_until_exported();
+  export_work_->wait();
   session_->wait_until_saved();
   QSettings settings;
   settings.setValue("window/geometry", saveGeometry());

@@ -73,8 +73,6 @@ class MainWindow : public QMainWindow {
   ReportPresenter& reports() { return *reports_; }
   NamedViewsPresenter& named_views() { return *named_views_; }
   bool exporting() const;  ///< Files are being written.
-  /// Returns once they are. The window is drawn meanwhile, and takes no input.
-  void wait_until_exported();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;

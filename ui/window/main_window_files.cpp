@@ -374,7 +374,7 @@ bool MainWindow::may_replace(const QStringList& names, const QString& folder) {
 }
 
 void MainWindow::export_results() {
-  wait_until_exported();  // one after the other
+  export_work_->wait();  // one after the other
   // Named by the part, so that results of several parts fit into one folder.
   ExportDialog dialog(QFileInfo(session_->part_name()).completeBaseName() + "_", this);
   if (dialog.exec() != QDialog::Accepted) return;
