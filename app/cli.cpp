@@ -805,6 +805,9 @@ int main(int argc, char** argv) {
   report_command->add_option("--page", request.page,
                              "A page of one's own, HTML with places as {{partitions}}");
   for (CLI::App* command : {replay_command, export_command, report_command}) add_unit(command);
+  CLI::App* page_command =
+      app.add_subcommand("report-page", "Write the page of reports, to be changed for --page");
+  page_command->add_option("-o,--output", output, "The HTML to write")->required();
 
   std::string session;
   for (CLI::App* command : {segment_command, replay_command})
@@ -885,6 +888,10 @@ int main(int argc, char** argv) {
   if (*export_command) return export_file(operations, other_scan, at, unit, what, output);
   if (*manual_command) return manual_page(app);
   if (*thumbnail_command) return thumbnail(session, output);
+  if (*page_command) {
+    const auto written = write_file_whole(output, report_page());
+    return written ? 0 : complain(written.error());
+  }
   if (*report_command) return report(operations, other_scan, at, unit, request);
   if (*compare_command) return compare_versions(operations, versions, as_json);
   return sample(output);

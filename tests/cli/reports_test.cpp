@@ -151,6 +151,13 @@ TEST_F(Reports, TakeTitleCompanyLogoAndAPageOfOnesOwn) {
   EXPECT_EQ(unbalanced(page), "");
 }
 
+TEST_F(Reports, AreSetInTheirOwnPageAsWithoutOne) {
+  const std::string usual = report();
+  expect_done({"report-page", "-o", folder.file("page.html")});
+  std::filesystem::remove_all(folder.file("report"));
+  EXPECT_EQ(report({"--page", folder.file("page.html")}), usual);
+}
+
 TEST_F(Reports, SayWhatIsWrong) {
   folder.write("page.html", "<h1>{{tilte}}</h1>");
   expect_bad_input({"report", folder.file("part.arris"), "-o", folder.file("report"), "--page",

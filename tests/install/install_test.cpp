@@ -221,7 +221,8 @@ TEST_F(Installed, ManualTellsEveryCommandAndOption) {
   for (std::size_t start = 0; start < commands.size();) {
     const std::size_t end = commands.find(';', start);
     const std::string command = commands.substr(start, end - start);
-    const std::size_t place = page.find(".SS \"" + command + "\"\n");
+    const std::string escaped = std::regex_replace(command, std::regex("-"), "\\-");
+    const std::size_t place = page.find(".SS \"" + escaped + "\"\n");
     EXPECT_NE(place, std::string::npos) << command;
     start = end + 1;
   }
