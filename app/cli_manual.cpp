@@ -1,5 +1,6 @@
 #include "app/cli_manual.h"
 
+#include "core/document/operation.h"
 #include "core/document/operation_manual.h"
 
 namespace arris {
@@ -21,9 +22,7 @@ void add_options(ManualPage& page, const CLI::App& command) {
 
 }  // namespace
 
-Result<std::string> cli_manual(const CLI::App& app, const std::string& version) {
-  const Result<std::vector<OperationManual>> operations = operation_manual();
-  if (!operations) return tl::unexpected<Error>(operations.error());
+std::string cli_manual(const CLI::App& app, const std::string& version) {
   ManualPage page(app.get_name(), version, "sharp lines and partitions of scanned moulds");
   page.section("SYNOPSIS");
   page.example(app.get_name() + " COMMAND [ARGUMENTS] [OPTIONS]");
@@ -46,9 +45,8 @@ Result<std::string> cli_manual(const CLI::App& app, const std::string& version) 
   page.example(Operation{"find_sharp_lines", {{"angle", 24.0}}}.text());
   page.paragraph(
       "Angles are in degrees, lengths in the unit of the scan. \"version\" may be given with each: "
-      "that of the method when the operation was written. What must be given is said; the rest may "
-      "be left out.");
-  add_operations(page, *operations);
+      "that of the method when the operation was written.");
+  add_operations(page);
   page.section("SEE ALSO");
   page.paragraph("arris(1)");
   return page.text();

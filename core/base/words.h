@@ -10,10 +10,18 @@
 /// Counts, lists and measures as they are said to the user.
 namespace arris {
 
+/// "11,730"
+template <class Count>
+std::string grouped(Count count) {
+  std::string text = std::to_string(count);
+  for (std::size_t k = text.size(); k > 3 && text[k - 4] != '-'; k -= 3) text.insert(k - 3, ",");
+  return text;
+}
+
 /// "1 line", "24 lines".
 template <class Count>
 std::string counted(Count count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+  return grouped(count) + " " + (count == 1 ? one : many);
 }
 
 /// "line 3", "lines 3 and 4", "lines 3, 4 and 7", "24 lines".

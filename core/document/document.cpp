@@ -85,15 +85,9 @@ std::vector<FaceId> nearest_working_faces(const Mesh& from, const Mesh& working,
 
 }  // namespace
 
-const std::optional<Step>& Document::step(std::string_view name) const {
+const std::optional<Step>& Document::step(StepName name) const {
   static const std::optional<Step> none;
-  return name == "simplify"           ? simplify
-         : name == "swap_edges"       ? swap_edges
-         : name == "find_sharp_lines" ? find_sharp_lines
-         : name == "equilateralize"   ? equilateralize
-         : name == "smooth_curvature" ? smooth_curvature
-         : name == "find_partitions"  ? find_partitions
-                                      : none;
+  return name.place < steps.size() ? steps[name.place] : none;
 }
 
 bool Document::is_divided_as(const Document& other) const {
@@ -102,25 +96,28 @@ bool Document::is_divided_as(const Document& other) const {
 }
 
 Criterion Document::criterion() const {
-  return find_partitions && find_partitions->parameters.value("criterion", "kabs") == "ikabs"
+  return step("find_partitions") &&
+                 step("find_partitions")->parameters.value("criterion", "kabs") == "ikabs"
              ? Criterion::ikabs
              : Criterion::kabs;
 }
 
 PartitionMethod Document::partition_method() const {
-  return find_partitions && find_partitions->parameters.value("method", "fronts") == "fronts"
+  return step("find_partitions") &&
+                 step("find_partitions")->parameters.value("method", "fronts") == "fronts"
              ? PartitionMethod::fronts
              : PartitionMethod::surfaces;
 }
 
 LineMethod Document::line_method() const {
-  return find_sharp_lines && find_sharp_lines->parameters.value("method", "walk") == "walk"
+  return step("find_sharp_lines") &&
+                 step("find_sharp_lines")->parameters.value("method", "walk") == "walk"
              ? LineMethod::walk
              : LineMethod::normal_jump;
 }
 
 Result<LineEvidencePtr> line_evidence_of(const Document& document, const Context& context) {
-  if (!document.find_sharp_lines || document.line_method() == LineMethod::walk)
+  if (!document.step("find_sharp_lines") || document.line_method() == LineMethod::walk)
     return LineEvidencePtr();
   if (document.evidence) return document.evidence->get(context);
   return SharedLineEvidence(document.mesh, document.curvatures).get(context);
@@ -165,15 +162,14 @@ std::string hash_of(const Document& document) {
   }
   hasher.number(document.corrections.size());
   for (const CorrectionPtr& correction : document.corrections) hasher.text(correction->hash);
-  for (const Stage* stage : {&document.opened, &document.simplified, &document.swapped})
-    hasher.text(stage->mesh ? stage->mesh->hash() : "");
+  const auto add_mesh_of = [&](const Stage& stage) {
+    hasher.text(stage.mesh ? stage.mesh->hash() : "");
+  };
+  add_mesh_of(document.opened);
+  for (std::size_t k = 0; k < chain_steps.size(); ++k)
+    if (chain_steps[k].leaves_mesh) add_mesh_of(document.outputs[k]);
   add(hasher, document.zones);
-  add(hasher, document.simplify);
-  add(hasher, document.swap_edges);
-  add(hasher, document.find_sharp_lines);
-  add(hasher, document.equilateralize);
-  add(hasher, document.smooth_curvature);
-  add(hasher, document.find_partitions);
+  for (const std::optional<Step>& step : document.steps) add(hasher, step);
   hasher.number(document.next_id);
   // Only where it was said: documents of before there was such an operation are what they were.
   if (document.unit) hasher.text(info_of(*document.unit).key);
@@ -218,8 +214,8 @@ std::size_t bytes_beyond(const Document& document, const Document& base) {
       bytes += stage.zones->bytes();
   };
   add_stage(document.opened, base.opened);
-  add_stage(document.simplified, base.simplified);
-  add_stage(document.swapped, base.swapped);
+  for (std::size_t k = 0; k < chain_steps.size(); ++k)
+    add_stage(document.outputs[k], base.outputs[k]);
   if (document.zones && document.zones != base.zones) bytes += document.zones->bytes();
   if (document.smoothed && document.smoothed != base.smoothed) bytes += document.smoothed->bytes();
   if (document.scan_faces && document.scan_faces != base.scan_faces)

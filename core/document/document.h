@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/curvature/curvature.h"
+#include "core/document/chain.h"
 #include "core/document/corrections.h"
 #include "core/document/operation.h"
 #include "core/mesh/length_unit.h"
@@ -32,8 +33,6 @@ struct Step {
   bool operator==(const Step&) const = default;
 };
 
-/// The document: an immutable value whose parts are shared between snapshots (document.md, rule 2).
-/// Copying it costs a few pointers. Camera, selection and colours are not part of it.
 /// What a step of figure 2 that changes the mesh leaves to the next one.
 struct Stage {
   MeshPtr mesh;  ///< Null: the step has no output.
@@ -42,6 +41,8 @@ struct Stage {
   SharedLineEvidencePtr evidence = nullptr;  ///< Of the mesh; null: nobody has needed it yet.
 };
 
+/// The document: an immutable value whose parts are shared between snapshots (document.md, rule 2).
+/// Copying it costs a few pointers. Camera, selection and colours are not part of it.
 struct Document {
   ScanPtr scan;              ///< Null in the empty document.
   std::string scan_path;     ///< As the user gave it; not part of what makes documents equal.
@@ -53,9 +54,10 @@ struct Document {
   /// Areas of `mesh` between its lines; derived, shared. Null, or of another mesh: nobody has
   /// needed it yet.
   SharedAreaTreePtr areas = nullptr;
-  /// Outputs of the steps before: the scan (flipped, cropped), then simplified, then swapped.
-  /// Running a step again starts from the last of those before it (document.md, rule 3).
-  Stage opened, simplified, swapped;
+  /// The scan (flipped, cropped), and what each step that leaves a mesh left, in the order of the
+  /// chain. Running a step again starts from the last of those before it (document.md, rule 3).
+  Stage opened;
+  std::array<Stage, chain_steps.size()> outputs;
   /// For each face of opened.mesh its face in scan->mesh; null: the same numbers.
   std::shared_ptr<const std::vector<FaceId>> scan_faces;
 
@@ -66,18 +68,16 @@ struct Document {
   /// What was corrected by hand, in order; done again when lines or partitions are found again.
   std::vector<CorrectionPtr> corrections;
   CurvaturesPtr smoothed;  ///< Output of smooth_curvature; null: not run on this mesh.
-  std::optional<Step> simplify;
-  std::optional<Step> swap_edges;
-  std::optional<Step> find_sharp_lines;
-  std::optional<Step> equilateralize;
-  std::optional<Step> smooth_curvature;
-  std::optional<Step> find_partitions;
+  std::array<std::optional<Step>, chain_steps.size()>
+      steps;                       ///< As last run, in the chain's order.
   std::uint32_t next_id = 1;       ///< Of the next line or partition; never goes back.
   std::optional<LengthUnit> unit;  ///< As set_unit said; absent: as the scan's file says.
 
   bool empty() const { return !scan; }
   /// The step of this name as last run; absent for one never run, and for names that are no step.
-  const std::optional<Step>& step(std::string_view name) const;
+  const std::optional<Step>& step(StepName name) const;
+  std::optional<Step>& step(StepName name) { return steps.at(name.place); }
+  const Stage& output(StepName name) const { return outputs.at(name.place); }
   /// Same lines and partitions on the same mesh: the boundaries are the same, too.
   bool is_divided_as(const Document& other) const;
   /// The criterion by which the partitions were found; kabs where they were not.

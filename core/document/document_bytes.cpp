@@ -16,7 +16,12 @@ namespace arris {
 namespace {
 
 /// Of the layout below, and the oldest that is still read: another one is not. 2: with the unit.
-constexpr std::uint32_t layout = 2, oldest_layout = 1;
+/// 3: steps by name, so that a chain of other steps can be read.
+constexpr std::uint32_t layout = 3, oldest_layout = 1;
+/// The steps of layouts that did not name them; the first two left a mesh.
+constexpr std::array<StepName, 6> unnamed_steps{"simplify",         "swap_edges",
+                                                "find_sharp_lines", "equilateralize",
+                                                "smooth_curvature", "find_partitions"};
 constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 /// Plain values one after the other, as this machine holds them.
@@ -232,9 +237,9 @@ std::optional<std::string> bytes_of(const Document& document) {
     stages.push_back(place_among(zones, with));
     if (zones.size() > mesh_of_zones.size()) mesh_of_zones.push_back(mesh);
   };
-  for (const Stage* stage : {&document.opened, &document.simplified, &document.swapped})
-    add(stage->mesh, stage->zones);
   add(document.mesh, document.zones);
+  add(document.opened.mesh, document.opened.zones);
+  for (const Stage& output : document.outputs) add(output.mesh, output.zones);
 
   out.value(std::uint64_t{meshes.size()});
   for (std::size_t k = 1; k < meshes.size(); ++k) {
@@ -289,10 +294,11 @@ std::optional<std::string> bytes_of(const Document& document) {
     out.value(correction->state);
     out.text(correction->message);
   }
-  for (const auto* step :
-       {&document.simplify, &document.swap_edges, &document.find_sharp_lines,
-        &document.equilateralize, &document.smooth_curvature, &document.find_partitions})
-    out.step(*step);
+  out.value(std::uint64_t{chain_steps.size()});
+  for (std::size_t k = 0; k < chain_steps.size(); ++k) {
+    out.text(std::string(chain_steps[k].name));
+    out.step(document.steps[k]);
+  }
   out.value(document.next_id);
   out.value(document.unit.has_value());
   if (document.unit) out.value(*document.unit);
@@ -332,7 +338,7 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
   std::vector<Stage> meshes{{opened.mesh, opened.curvatures, nullptr, opened.evidence}};
   const auto scan_points = opened.scan->mesh->points();
   const std::size_t mesh_count = in.count(sizeof(std::uint64_t));
-  in.expect(mesh_count >= 1 && mesh_count <= 5);
+  in.expect(mesh_count >= 1 && mesh_count <= chain_steps.size() + 3);
   for (std::size_t k = 1; in.good() && k < mesh_count; ++k) {
     std::vector<Point> points(scan_points.begin(), scan_points.end());
     for (const auto& [x, y, z] : in.values<std::array<double, 3>>()) points.emplace_back(x, y, z);
@@ -356,9 +362,11 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
     if (in.good()) zones.push_back(read_zones(in, *meshes[of].mesh));
   }
   const auto stages = in.values<std::uint32_t>();
-  in.expect(stages.size() == 8);
+  in.expect(stages.size() >= 4 && stages.size() % 2 == 0);
   if (!in.good()) return std::nullopt;
   const auto stage_at = [&](std::size_t k) {
+    in.expect(2 * k + 1 < stages.size());
+    if (!in.good()) return Stage{};
     const std::uint32_t mesh = stages[2 * k], with = stages[2 * k + 1];
     in.expect((mesh == none || mesh < meshes.size()) && (with == none || with < zones.size()));
     if (!in.good() || mesh == none) return Stage{};
@@ -366,10 +374,9 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
     if (with != none) stage.zones = zones[with];
     return stage;
   };
-  document.opened = stage_at(0);
-  document.simplified = stage_at(1);
-  document.swapped = stage_at(2);
-  const Stage current = stage_at(3);
+  const bool named = version >= 3;
+  const Stage current = stage_at(named ? 0 : 3);
+  document.opened = stage_at(named ? 1 : 0);
   if (!in.good() || !current.mesh || !document.opened.mesh) return std::nullopt;
   document.mesh = current.mesh;
   document.curvatures = current.curvatures;
@@ -400,10 +407,20 @@ std::optional<Document> document_from(std::string_view bytes, const Document& op
   const std::size_t correction_count = in.count(sizeof(std::uint64_t));
   for (std::size_t k = 0; in.good() && k < correction_count; ++k)
     document.corrections.push_back(read_correction(in));
-  for (auto* step :
-       {&document.simplify, &document.swap_edges, &document.find_sharp_lines,
-        &document.equilateralize, &document.smooth_curvature, &document.find_partitions})
-    *step = in.step();
+  if (named) {
+    const std::size_t step_count = in.count(sizeof(std::uint64_t));
+    in.expect(stages.size() == 2 * (step_count + 2));
+    for (std::size_t k = 0; in.good() && k < step_count; ++k) {
+      const StepName name(in.text());
+      in.expect(name.place < chain_steps.size());
+      if (!in.good()) return std::nullopt;
+      document.step(name) = in.step();
+      document.outputs[name.place] = stage_at(k + 2);
+    }
+  } else {
+    for (const StepName& name : unnamed_steps) document.step(name) = in.step();
+    for (std::size_t k : {0, 1}) document.outputs[unnamed_steps[k].place] = stage_at(k + 1);
+  }
   document.next_id = in.value<std::uint32_t>();
   if (version >= 2 && in.flag()) {
     document.unit = in.value<LengthUnit>();

@@ -1,11 +1,13 @@
 #include "core/document/operation.h"
 
-#include <array>
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "core/document/document.h"
 #include "core/document/operations/operations.h"
 #include "core/document/perform.h"
-#include "core/document/treatments/treatments.h"
+#include "core/document/treatments/treatment.h"
 
 namespace arris {
 
@@ -13,41 +15,23 @@ namespace {
 
 constexpr const char* name_key = "operation";
 constexpr const char* version_key = "version";
+constexpr std::string_view open_name = "open";
 
 }  // namespace
 
 std::span<const OperationKind> operation_table() {
-  static const std::array<OperationKind, 31> table{open_operation,
-                                                   set_unit_operation,
-                                                   flip_orientation_operation,
-                                                   delete_faces_operation,
-                                                   simplify_operation,
-                                                   swap_edges_operation,
-                                                   find_sharp_lines_operation,
-                                                   delete_lines_operation,
-                                                   extend_line_operation,
-                                                   trim_line_operation,
-                                                   split_line_operation,
-                                                   merge_lines_operation,
-                                                   draw_line_operation,
-                                                   reroute_line_operation,
-                                                   recompute_lines_operation,
-                                                   equilateralize_operation,
-                                                   smooth_curvature_operation,
-                                                   find_partitions_operation,
-                                                   connect_partitions_operation,
-                                                   extend_partition_operation,
-                                                   remove_partitions_operation,
-                                                   remove_small_partitions_operation,
-                                                   fill_unassigned_operation,
-                                                   restart_partitions_operation,
-                                                   recompute_partitions_operation,
-                                                   split_partition_operation,
-                                                   split_to_four_sides_operation,
-                                                   paint_partition_operation,
-                                                   smooth_boundaries_operation,
-                                                   lock_operation,
-                                                   lift_correction_operation};
+  // The files in which rows stand; a row more is listed nowhere else.
+  static const std::vector<OperationKind> table = [] {
+    std::vector<OperationKind> rows;
+    for (const auto group :
+         {open_rows, unit_rows, orientation_rows, delete_faces_rows, preparation_rows,
+          find_lines_rows, smooth_curvature_rows, find_partitions_rows, line_treatment_rows,
+          partition_treatment_rows, area_treatment_rows, correction_rows}) {
+      std::vector<OperationKind> own = group();
+      std::move(own.begin(), own.end(), std::back_inserter(rows));
+    }
+    return rows;
+  }();
   return table;
 }
 
@@ -55,6 +39,28 @@ const OperationKind* find_operation(std::string_view name) {
   for (const OperationKind& kind : operation_table())
     if (kind.name == name) return &kind;
   return nullptr;
+}
+
+const Parameter* OperationKind::find(std::string_view parameter) const {
+  const auto found = std::ranges::find(parameters, parameter, &Parameter::name);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+Result<nlohmann::json> OperationKind::resolve(const Document& document,
+                                              const nlohmann::json& given) const {
+  if (ready)
+    if (const auto is_ready = ready(document); !is_ready)
+      return tl::unexpected<Error>(is_ready.error());
+  nlohmann::json meant = given;
+  if (understood) {
+    Result<nlohmann::json> said = understood(document, given);
+    if (!said) return said;
+    meant = std::move(*said);
+  }
+  ParameterReader reader(name, document, meant);
+  reader.read(parameters);
+  if (complete && reader.good()) complete(reader);
+  return reader.finish();
 }
 
 Result<Operation> Operation::from_json(const nlohmann::json& json) {
@@ -88,7 +94,7 @@ nlohmann::json Operation::to_json() const {
 Result<Operation> resolve(const Document& document, const Operation& operation) {
   const OperationKind* kind = find_operation(operation.name);
   if (!kind) return fail("There is no operation '" + operation.name + "'.");
-  if (document.empty() && kind != find_operation("open"))
+  if (document.empty() && kind->name != open_name)
     return fail(operation.name + ": no part is open.");
   nlohmann::json parameters = operation.parameters;
   if (const auto version = parameters.find(version_key); version != parameters.end()) {
@@ -115,20 +121,20 @@ Result<Performed> perform(const Document& document, const Operation& operation,
                           const FileSource* files, const Context& context) {
   Result<Operation> complete = resolve(document, operation);
   if (!complete) return tl::unexpected<Error>(complete.error());
+  const OperationKind& kind = *find_operation(complete->name);
+  const bool opens = kind.name == open_name;
   nlohmann::json parameters = complete->parameters;
   parameters.erase(version_key);
-  Result<Document> result =
-      complete->name == open_operation.name
-          ? open_scan_of(document, parameters, files, context)
-          : find_operation(complete->name)->apply(document, parameters, context);
+  Result<Document> result = opens        ? open_scan_of(document, parameters, files, context)
+                            : kind.treat ? apply_treatment(kind, document, parameters, context)
+                                         : kind.apply(document, parameters, context);
   if (!result) return tl::unexpected<Error>(result.error());
   Document& after = *result;
   // Treatments carry the boundaries on by what they touch; whatever else changed them did not.
   if (after.mesh && after.boundaries == document.boundaries && !after.is_divided_as(document))
     after.boundaries = std::make_shared<const Boundaries>(
         derive_boundaries(*after.mesh, *after.curvatures, after.lines, after.partitions));
-  if (complete->name == open_operation.name)
-    complete->parameters["hash"] = result->scan->report.content_hash;
+  if (opens) complete->parameters["hash"] = result->scan->report.content_hash;
   return Performed{std::move(*complete), std::move(*result)};
 }
 
@@ -142,7 +148,7 @@ Result<Document> apply(const Document& document, const Operation& operation,
 std::string describe(const Operation& operation) {
   const OperationKind* kind = find_operation(operation.name);
   if (!kind) return operation.name;
-  return kind->words(operation.parameters);
+  return kind->words ? kind->words(operation.parameters) : std::string(kind->title);
 }
 
 }  // namespace arris

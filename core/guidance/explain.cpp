@@ -379,7 +379,7 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   }
   const Mesh& mesh = *document.mesh;
   result.holds = document.lines.is_sharp(e);
-  const std::optional<Step>& step = document.find_sharp_lines;
+  const std::optional<Step>& step = document.step("find_sharp_lines");
   // Out of date, the step's own mesh is gone: the tests tell of the current one.
   const bool out_of_date = step && step->out_of_date;
   const Result<LineEvidencePtr> known = line_evidence_of(document);
@@ -459,7 +459,7 @@ Explanation explain_face(const Document& document, FaceId f) {
   const Mesh& mesh = *document.mesh;
   const std::uint32_t label = document.partitions.label(f);
   result.holds = label != 0;
-  const std::optional<Step>& step = document.find_partitions;
+  const std::optional<Step>& step = document.step("find_partitions");
   const std::string in = "In partition " + std::to_string(label);
   if (!step || document.partitions.labels.empty()) {
     result.headline = result.holds ? in + "."

@@ -230,10 +230,11 @@ std::vector<WorkItem> loose_end_items(const Document& document, const WorklistOp
   const bool by_jump = evidence && *evidence;
   keep_largest(items, options.most_per_kind);
   const std::size_t with_ways = by_jump ? items.size() : options.most_with_ways;
-  const double angle = (document.find_sharp_lines
-                            ? document.find_sharp_lines->parameters.at("angle").get<double>()
-                            : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk)) *
-                       std::numbers::pi / 180.0;
+  const double angle =
+      (document.step("find_sharp_lines")
+           ? document.step("find_sharp_lines")->parameters.at("angle").get<double>()
+           : default_sharp_angle(mesh, *document.curvatures, LineMethod::walk)) *
+      std::numbers::pi / 180.0;
   const CurvaturesPtr measures = line_measures(document);
   const double reach = options.reach * mesh.mean_edge_length();
   const Continuations continuations(mesh, *measures, document.lines, ends, angle, reach);

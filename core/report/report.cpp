@@ -78,17 +78,11 @@ std::string cell(const std::string& text, bool number, const char* tag = "td") {
 }
 
 /// "find_sharp_lines" asks for "min_length": "min length".
+/// "Target vertices"
 std::string spaced(std::string key) {
   std::ranges::replace(key, '_', ' ');
+  key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
   return key;
-}
-
-/// Whether a parameter of a step means anything with the method that was chosen.
-bool counts(const nlohmann::json& parameters, const std::string& key) {
-  const std::string method = parameters.value("method", "");
-  if (method == "surfaces") return key != "criterion" && key != "intervals" && key != "fill_holes";
-  return (method != "fronts" || key != "detail") &&
-         (method != "normal_jump" || key != "candidates");
 }
 
 std::string value_text(const nlohmann::json& value) {
@@ -285,21 +279,38 @@ class ReportMaker {
 
   std::string steps() const {
     std::string rows;
-    for (const char* name : {"simplify", "swap_edges", "find_sharp_lines", "equilateralize",
-                             "smooth_curvature", "find_partitions"}) {
-      const std::optional<Step>& step = document_.step(name);
+    for (std::size_t k = 0; k < chain_steps.size(); ++k) {
+      const std::optional<Step>& step = document_.steps[k];
       if (!step) continue;
+      const OperationKind& kind = *find_operation(chain_steps[k].name);
       std::string parameters;
-      for (const auto& [key, value] : step->parameters.items())
-        if (counts(step->parameters, key))
-          parameters += (parameters.empty() ? "" : ", ") + (spaced(key) + " " + value_text(value));
-      const OperationKind* kind = find_operation(name);
-      rows += "<tr>" + cell(std::string(kind ? kind->title : name), false) +
-              cell(parameters + (step->out_of_date ? "; out of date" : ""), false) + "</tr>\n";
+      for (const Parameter& parameter : kind.parameters)
+        if (counts_in(step->parameters, parameter))
+          parameters += (parameters.empty() ? "" : "; ") +
+                        parameter_in_words(parameter, step->parameters.at(parameter.name));
+      rows += "<tr>" + cell(std::string(chain_steps[k].title), false) + cell(parameters, false) +
+              cell(step->out_of_date ? "out of date" : kind.outcome(document_), false) + "</tr>\n";
     }
     if (rows.empty()) return "";
     return heading("Steps") + "<table class=\"rows\">\n<tr>" + cell("Step", false, "th") +
-           cell("Parameters", false, "th") + "</tr>\n" + rows + "</table>\n";
+           cell("Parameters", false, "th") + cell("Result", false, "th") + "</tr>\n" + rows +
+           "</table>\n";
+  }
+
+  /// "Least length: 0.6 mm", "Method: Fitted surfaces"
+  std::string parameter_in_words(const Parameter& parameter, const nlohmann::json& value) const {
+    std::string label(parameter.label);
+    std::string text = value_text(value);
+    if (label.empty()) label = spaced(std::string(parameter.name));
+    for (const ParameterChoice& choice : parameter.choices)
+      if (choice.key == text) text = choice.label;
+    if (parameter.unit == "°")
+      text = degrees_in_words(value.get<double>());
+    else if (parameter.unit == unit_of_part)
+      text = with_unit(text, length_unit_of(document_));
+    else if (!parameter.unit.empty())
+      text += " " + std::string(parameter.unit);
+    return label + ": " + text;
   }
 
   std::string distributions() {
@@ -311,7 +322,7 @@ class ReportMaker {
       text += std::string("<p class=\"picture\"><img class=\"histogram\" src=\"") + file +
               "\" width=\"640\" height=\"240\" alt=\"" + escaped(picture.title) + "\"></p>\n";
     };
-    if (document_.find_sharp_lines) {
+    if (document_.step("find_sharp_lines")) {
       std::vector<double> angles = field_values(*line_measures(document_), Field::ihe);
       for (double& angle : angles) angle = std::abs(angle);
       HistogramPicture picture{document_.line_method() == LineMethod::normal_jump
@@ -320,7 +331,7 @@ class ReportMaker {
                                0.0,
                                90.0,
                                {}};
-      const double threshold = document_.find_sharp_lines->parameters.value("angle", 0.0);
+      const double threshold = document_.step("find_sharp_lines")->parameters.value("angle", 0.0);
       picture.marks.push_back({threshold, "sharp from " + degrees_in_words(threshold)});
       add("histogram_lines.svg", Distribution(angles, field_weights(mesh, Field::ihe)), picture);
     }
@@ -332,9 +343,11 @@ class ReportMaker {
         0.0,
         kabs.quantile(0.98),
         {}};
-    if (document_.find_partitions && document_.partition_method() == PartitionMethod::fronts)
+    if (document_.step("find_partitions") &&
+        document_.partition_method() == PartitionMethod::fronts)
       for (const nlohmann::json& interval :
-           document_.find_partitions->parameters.value("intervals", nlohmann::json::array()))
+           document_.step("find_partitions")
+               ->parameters.value("intervals", nlohmann::json::array()))
         if (interval.size() == 2 && interval[1].is_number())
           picture.marks.push_back(
               {interval[1].get<double>(), "interval to " + value_text(interval[1])});

@@ -30,14 +30,14 @@ double seconds_of(const Document& document, const Operation& operation, Document
 }
 
 /// The median time of a move of one parameter of a step, all others as they were resolved.
-double slider_seconds(const Document& found, const char* step, const char* name,
+double slider_seconds(const Document& found, std::string_view step, const char* name,
                       const std::vector<nlohmann::json>& values) {
   std::vector<double> times;
   nlohmann::json parameters = found.step(step)->parameters;
   for (const nlohmann::json& value : values) {
     parameters[name] = value;
     Document moved;
-    times.push_back(seconds_of(found, {step, parameters}, moved));
+    times.push_back(seconds_of(found, {std::string(step), parameters}, moved));
   }
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
@@ -76,9 +76,10 @@ int main(int argc, char** argv) {
             << surfaces.partitions.partitions.size() << "\n";
   print_row("partitions, once", "fronts", by_fronts, "surfaces", by_surfaces);
   std::vector<nlohmann::json> bounds;
-  const double bound = fronts.find_partitions->parameters["intervals"][0][1].is_number()
-                           ? fronts.find_partitions->parameters["intervals"][0][1].get<double>()
-                           : 1.0;
+  const double bound =
+      fronts.step("find_partitions")->parameters["intervals"][0][1].is_number()
+          ? fronts.step("find_partitions")->parameters["intervals"][0][1].get<double>()
+          : 1.0;
   for (const double share : {0.5, 0.7, 0.8, 0.9, 1.1, 1.3, 1.6, 2.0})
     bounds.push_back({{0.0, share * bound}, {share * bound, nullptr}});
   print_row("a move of Kmax or of the detail (median of 8)", "fronts",

@@ -97,9 +97,13 @@ TEST_F(Reports, TellWhatTheSummaryTells) {
   EXPECT_EQ(types, (std::multiset<std::string>{"cylinder", "plane", "plane"}));
   const auto steps = rows_after(page, "Steps");
   ASSERT_EQ(steps.size(), 2u);
-  EXPECT_NE(steps[0][1].find("method normal_jump"), std::string::npos) << steps[0][1];
-  EXPECT_EQ(steps[0][1].find("candidates"), std::string::npos) << "the walk's alone";
-  EXPECT_EQ(steps[1][1].find("intervals"), std::string::npos) << "the fronts' alone";
+  EXPECT_NE(steps[0][1].find("Method: Normal jump"), std::string::npos) << steps[0][1];
+  EXPECT_EQ(steps[0][1].find("Candidates"), std::string::npos) << "the walk's alone";
+  EXPECT_NE(steps[0][1].find(" mm"), std::string::npos) << "lengths have a unit";
+  EXPECT_NE(steps[0][1].find("°"), std::string::npos);
+  EXPECT_EQ(steps[0][2].rfind("2 lines, ", 0), 0u) << steps[0][2];
+  EXPECT_EQ(steps[1][1].find("Intervals"), std::string::npos) << "the fronts' alone";
+  EXPECT_EQ(steps[1][2].rfind("3 partitions, ", 0), 0u) << steps[1][2];
   EXPECT_NE(page.find("<th align=\"right\""), std::string::npos);
   EXPECT_NE(page.find("Length (mm)"), std::string::npos);
   EXPECT_NE(page.find("<li>Find sharp lines, "), std::string::npos);

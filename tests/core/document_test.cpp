@@ -12,7 +12,6 @@
 #include "core/base/thread_limit.h"
 #include "core/document/curve_files.h"
 #include "core/document/operation.h"
-#include "core/document/treatments/treatments.h"
 #include "tests/support/documents.h"
 
 namespace arris {
@@ -105,7 +104,8 @@ TEST_F(Operations, TableHoldsEachOnceWithTitleAndVersion) {
   std::set<std::string_view> covered;
   for (const Operation& operation : samples()) covered.insert(find_operation(operation.name)->name);
   // Treatments need lines and partitions: line_treatments_test.cpp and the like.
-  for (const Treatment* treatment : all_treatments()) covered.insert(treatment->name);
+  for (const OperationKind& kind : operation_table())
+    if (kind.is_treatment()) covered.insert(kind.name);
   covered.insert({"lock", "lift_correction"});
   EXPECT_EQ(covered, names) << "every operation takes part in these tests";
 }
@@ -358,25 +358,25 @@ TEST_F(Operations, FindingTheSameAgainKeepsIdsAndShares) {
 
 TEST_F(Operations, StepsKnowWhenAnEarlierOneChanged) {
   Document document = applied(part, {"find_sharp_lines", json::object()});
-  EXPECT_FALSE(document.find_sharp_lines->out_of_date);
-  EXPECT_FALSE(document.find_partitions.has_value());
+  EXPECT_FALSE(document.step("find_sharp_lines")->out_of_date);
+  EXPECT_FALSE(document.step("find_partitions").has_value());
   document = applied(document, {"find_partitions", json::object()});
-  EXPECT_FALSE(document.find_partitions->out_of_date);
+  EXPECT_FALSE(document.step("find_partitions")->out_of_date);
   document = applied(document, {"find_sharp_lines", {{"angle", 40}}});
-  EXPECT_FALSE(document.find_sharp_lines->out_of_date);
-  EXPECT_TRUE(document.find_partitions->out_of_date);
-  EXPECT_EQ(document.find_sharp_lines->parameters["angle"], 40);
+  EXPECT_FALSE(document.step("find_sharp_lines")->out_of_date);
+  EXPECT_TRUE(document.step("find_partitions")->out_of_date);
+  EXPECT_EQ(document.step("find_sharp_lines")->parameters["angle"], 40);
   document = applied(document, {"find_partitions", json::object()});
-  EXPECT_FALSE(document.find_partitions->out_of_date);
+  EXPECT_FALSE(document.step("find_partitions")->out_of_date);
   document = applied(document, {"smooth_curvature", json::object()});
-  EXPECT_FALSE(document.smooth_curvature->out_of_date);
-  EXPECT_TRUE(document.find_partitions->out_of_date);
+  EXPECT_FALSE(document.step("smooth_curvature")->out_of_date);
+  EXPECT_TRUE(document.step("find_partitions")->out_of_date);
   document = applied(document, {"find_sharp_lines", {{"angle", 45}}});
-  EXPECT_TRUE(document.smooth_curvature->out_of_date);
+  EXPECT_TRUE(document.step("smooth_curvature")->out_of_date);
   document = applied(document, {"delete_faces", {{"components_under", 100}}});
-  EXPECT_TRUE(document.find_sharp_lines->out_of_date);
-  EXPECT_TRUE(document.smooth_curvature->out_of_date);
-  EXPECT_TRUE(document.find_partitions->out_of_date);
+  EXPECT_TRUE(document.step("find_sharp_lines")->out_of_date);
+  EXPECT_TRUE(document.step("smooth_curvature")->out_of_date);
+  EXPECT_TRUE(document.step("find_partitions")->out_of_date);
   EXPECT_TRUE(document.partitions.partitions.empty());
   EXPECT_TRUE(document.partitions.labels.empty());
 }
@@ -385,7 +385,7 @@ TEST_F(Operations, OpeningAnotherPartForgetsTheFirstButNotItsIds) {
   const Document lined = applied(part, {"find_sharp_lines", json::object()});
   const Document other = applied(lined, {"open", {{"file", path}}});
   EXPECT_TRUE(other.lines.lines.empty());
-  EXPECT_FALSE(other.find_sharp_lines.has_value());
+  EXPECT_FALSE(other.step("find_sharp_lines").has_value());
   const Document again = applied(other, {"find_sharp_lines", json::object()});
   for (const std::uint32_t id : line_ids(again)) EXPECT_FALSE(line_ids(lined).contains(id));
 }
@@ -587,7 +587,7 @@ TEST_F(Operations, HashTellsDocumentsApart) {
   other.next_id += 1;
   hashes.insert(hash_of(other));
   other = lined;
-  other.find_sharp_lines->out_of_date = true;
+  other.step("find_sharp_lines")->out_of_date = true;
   hashes.insert(hash_of(other));
   other = lined;
   for (EdgeId e = 0; e < other.mesh->edge_count(); ++e)

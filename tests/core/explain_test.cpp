@@ -99,7 +99,7 @@ TEST(ExplainEdge, EdgesOfACubePassEveryTestAndFlatOnesFailAtTheAngle) {
       ASSERT_NE(angle, nullptr);
       EXPECT_FALSE(angle->passed);
       EXPECT_NEAR(angle->value, 0.0, 1e-4);
-      EXPECT_EQ(angle->threshold, document.find_sharp_lines->parameters.at("angle"));
+      EXPECT_EQ(angle->threshold, document.step("find_sharp_lines")->parameters.at("angle"));
       EXPECT_EQ(angle->unit, "°");
     }
     EXPECT_EQ(sharp, 12 * divisions);
@@ -121,7 +121,7 @@ TEST(ExplainEdge, ByTheJumpEdgesOfACubeCountByTheirOwnAngle) {
         const ExplainedTest* angle = find_test(explanation, "Exterior angle");
         ASSERT_NE(angle, nullptr);
         EXPECT_NEAR(angle->value, 90.0, 1e-3);
-        EXPECT_EQ(angle->threshold, document.find_sharp_lines->parameters.at("angle"));
+        EXPECT_EQ(angle->threshold, document.step("find_sharp_lines")->parameters.at("angle"));
         EXPECT_EQ(angle->unit, "°");
         EXPECT_EQ(find_test(explanation, "Jump to turn"), nullptr) << "nothing was pooled";
         for (const ExplainedTest& test : explanation.tests)
@@ -138,7 +138,7 @@ TEST(ExplainEdge, ByTheJumpEdgesOfACubeCountByTheirOwnAngle) {
 
 TEST(ExplainEdge, ByTheJumpABorderCountsAsAWhole) {
   const Document document = segmented_mould("normal_jump");
-  const double threshold = document.find_sharp_lines->parameters.at("angle");
+  const double threshold = document.step("find_sharp_lines")->parameters.at("angle");
   int borders = 0, weak = 0, fitted = 0;
   for (EdgeId e = 0; e < document.mesh->edge_count(); ++e) {
     const BorderEdge* border = candidate(document, e);
@@ -188,7 +188,7 @@ TEST(ExplainEdge, OneAngleIsSaidOfAnEdgeBesideTheThreshold) {
   for (const char* method : methods) {
     SCOPED_TRACE(method);
     const Document document = segmented_mould(method);
-    const double threshold = document.find_sharp_lines->parameters.at("angle");
+    const double threshold = document.step("find_sharp_lines")->parameters.at("angle");
     int more = 0;
     for (EdgeId e = 0; e < document.mesh->edge_count(); e += 7) {
       const Explanation explanation = explain_edge(document, e);
@@ -209,7 +209,7 @@ TEST(ExplainEdge, OneAngleIsSaidOfAnEdgeBesideTheThreshold) {
 
 TEST(ExplainEdge, ByTheJumpTheLeastLengthAndCorrectionsAreNamed) {
   Document document = segmented_mould("normal_jump");
-  nlohmann::json parameters = document.find_sharp_lines->parameters;
+  nlohmann::json parameters = document.step("find_sharp_lines")->parameters;
   const auto is_on_line = [&](EdgeId e) { return document.lines.is_sharp(e); };
   EdgeId on_line = 0;
   while (!is_on_line(on_line)) ++on_line;
@@ -226,7 +226,7 @@ TEST(ExplainEdge, ByTheJumpTheLeastLengthAndCorrectionsAreNamed) {
   EXPECT_LE(test->value, length * 1.0001);
   EXPECT_EQ(test->threshold, 2.0 * length);
   // And only concave ones.
-  parameters = document.find_sharp_lines->parameters;
+  parameters = document.step("find_sharp_lines")->parameters;
   parameters["convexity"] = "concave";
   const Document concave = applied(document, {"find_sharp_lines", parameters});
   int outside = 0;
@@ -312,7 +312,7 @@ TEST(Explain, AgreesAfterStepsThatChangedTheMesh) {
 TEST(ExplainEdge, NamesTheTreatmentThatTookAnEdge) {
   const Document document = segmented_mould("walk");
   const Mesh& mesh = *document.mesh;
-  const nlohmann::json& parameters = document.find_sharp_lines->parameters;
+  const nlohmann::json& parameters = document.step("find_sharp_lines")->parameters;
   SharpLineOptions options;
   options.angle = parameters.at("angle");
   options.candidates = parameters.at("candidates");

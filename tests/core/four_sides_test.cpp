@@ -580,7 +580,7 @@ TEST(SplitToFourSides, IsUndoneRedoneAndReplayed) {
 TEST(SplitToFourSides, IsDoneAgainOnWhatIsFoundThen) {
   const Document document = divided_at_edges(document_of(l_prism()));
   const Document split = applied(document, {"split_to_four_sides", json::object()});
-  const Operation again{"find_partitions", document.find_partitions->parameters};
+  const Operation again{"find_partitions", document.step("find_partitions")->parameters};
   Document found = applied(split, again);
   EXPECT_EQ(sorted_sides(found), std::vector<std::size_t>(10, 4));
   EXPECT_EQ(found.corrections.back()->state, CorrectionState::applied);
@@ -605,7 +605,8 @@ TEST(SplitToFourSides, LeavesAPieceThatWasLockedSince) {
   std::vector<std::uint32_t> ids;
   for (const PartitionPtr& partition : split.partitions.partitions) ids.push_back(partition->id);
   split = applied(split, {"lock", {{"partitions", ids}}});
-  const Document found = applied(split, {"find_partitions", document.find_partitions->parameters});
+  const Document found =
+      applied(split, {"find_partitions", document.step("find_partitions")->parameters});
   for (FaceId f = 0; f < found.mesh->face_count(); ++f)
     ASSERT_EQ(found.partitions.label(f), split.partitions.label(f));
   EXPECT_EQ(found.corrections.back()->state, CorrectionState::adapted);

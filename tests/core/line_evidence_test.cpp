@@ -376,7 +376,7 @@ TEST(FindSharpLines, ARowOfTheFirstVersionIsTheWalk) {
       "find_sharp_lines",
       {{"version", 1}, {"angle", 30.0}, {"min_length", 3.0}, {"bridge_gap", 0.0}}};
   const Document replayed = applied(opened, stored);
-  EXPECT_EQ(replayed.find_sharp_lines->parameters["method"], "walk");
+  EXPECT_EQ(replayed.step("find_sharp_lines")->parameters["method"], "walk");
   const Document walked = applied(
       opened, {"find_sharp_lines",
                {{"method", "walk"}, {"angle", 30.0}, {"min_length", 3.0}, {"bridge_gap", 0.0}}});

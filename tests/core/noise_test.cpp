@@ -267,17 +267,18 @@ TEST(Defaults, AreLengthsOfThePartAndNotRounded) {
   const Document document = document_of(noisy(divided_cube(20.0, 12), 0.1, 3));
   const Mesh& mesh = *document.mesh;
   const Document simplified = applied(document, {"simplify"});
-  EXPECT_EQ(simplified.simplify->parameters["error_zone"], 3.0 * estimate_noise(mesh));
-  EXPECT_EQ(simplified.simplify->parameters["max_edge_length"], 2.0 * mesh.mean_edge_length());
+  EXPECT_EQ(simplified.step("simplify")->parameters["error_zone"], 3.0 * estimate_noise(mesh));
+  EXPECT_EQ(simplified.step("simplify")->parameters["max_edge_length"],
+            2.0 * mesh.mean_edge_length());
   const Document lined = applied(document, {"find_sharp_lines"});
-  EXPECT_EQ(lined.find_sharp_lines->parameters["min_length"],
+  EXPECT_EQ(lined.step("find_sharp_lines")->parameters["min_length"],
             default_min_length(mesh, LineMethod::normal_jump));
 }
 
 TEST(Defaults, ReadLikeNumbersWhereTheyAreShown) {
   const Document document =
       applied(document_of(noisy(divided_cube(20.0, 12), 0.1, 3)), {"simplify"});
-  const std::string gist = find_operation("simplify")->words(document.simplify->parameters);
+  const std::string gist = find_operation("simplify")->words(document.step("simplify")->parameters);
   EXPECT_LE(std::count_if(gist.begin(), gist.end(), [](char c) { return c >= '1' && c <= '9'; }), 3)
       << gist;
 }

@@ -143,7 +143,8 @@ TEST(ExtendPartition, MadeForALittleIsNotDoneAgainWhereItWouldFlood) {
   EXPECT_NE(correction.state, CorrectionState::applied);
   EXPECT_FALSE(correction.message.empty());
   // Found as before it is what it was.
-  const Document back = applied(again, {"find_partitions", extended.find_partitions->parameters});
+  const Document back =
+      applied(again, {"find_partitions", extended.step("find_partitions")->parameters});
   EXPECT_EQ(back.corrections.back()->state, CorrectionState::applied)
       << back.corrections.back()->message;
   expect_invariants(back);
@@ -239,7 +240,7 @@ TEST(DrawLine, PartsThePartitionsItRunsThroughAtOnce) {
             5u);
   const Document closed = applied(document, {"draw_line", {{"vertices", rest}}});
   EXPECT_EQ(closed.partitions.partitions.size(), 6u);
-  EXPECT_FALSE(closed.find_partitions->out_of_date);
+  EXPECT_FALSE(closed.step("find_partitions")->out_of_date);
   expect_invariants(closed);
   for (const PartitionPtr& partition : closed.partitions.partitions)
     EXPECT_NEAR(partition->area, 100.0, 1e-9);
@@ -248,7 +249,8 @@ TEST(DrawLine, PartsThePartitionsItRunsThroughAtOnce) {
   const Document both = applied(document, {"draw_line", {{"paths", {half, other}}}});
   EXPECT_EQ(both.partitions.labels, closed.partitions.labels);
   EXPECT_EQ(both.corrections.size(), document.corrections.size() + 1);
-  const Document again = applied(both, {"find_partitions", both.find_partitions->parameters});
+  const Document again =
+      applied(both, {"find_partitions", both.step("find_partitions")->parameters});
   EXPECT_EQ(again.partitions.partitions.size(), 6u);
 }
 

@@ -41,7 +41,7 @@ class RandomEdits {
       return json{{"vertices", stroke}, {"radius", edge * random_.uniform(1.0, 6.0)}};
     };
     const double highest =
-        document.find_partitions ? random_.uniform(0.0, 2.0) * middle_value(document) : 1.0;
+        document.step("find_partitions") ? random_.uniform(0.0, 2.0) * middle_value(document) : 1.0;
     const bool has_lines = !document.lines.lines.empty();
     const bool has_partitions = !document.partitions.partitions.empty();
     for (;;) {

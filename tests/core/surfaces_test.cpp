@@ -603,7 +603,7 @@ TEST(FindPartitions, CoverEveryFaceAndNeverReachOverALine) {
     const Document document = found(random_terrain(40, seed));
     EXPECT_DOUBLE_EQ(assigned_share(document), 1.0);
     // Connected without crossing lines, and no smaller than asked for unless enclosed.
-    const std::uint32_t least = document.find_partitions->parameters.at("min_faces");
+    const std::uint32_t least = document.step("find_partitions")->parameters.at("min_faces");
     for (const PartitionPtr& partition : document.partitions.partitions) {
       std::set<FaceId> reached;
       std::vector<FaceId> front;

@@ -62,13 +62,13 @@ TEST(Session, OnlyTheLatestPreviewCounts) {
   for (int k = 0; k < 50; ++k) session.preview({"find_sharp_lines", {{"angle", 20.0 + k}}});
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
-        const auto& step = session.shown().document.find_sharp_lines;
+        const auto& step = session.shown().document.step("find_sharp_lines");
         return step && step->parameters["angle"] == 69.0;
       },
       patience));
   EXPECT_LT(answers, 10) << "values that came too late are left out";
   session.cancel_preview();
-  EXPECT_FALSE(session.shown().document.find_sharp_lines);
+  EXPECT_FALSE(session.shown().document.step("find_sharp_lines"));
   EXPECT_EQ(session.history().entries().size(), 1u);
 }
 

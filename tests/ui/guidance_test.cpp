@@ -123,7 +123,7 @@ TEST_F(GuidanceTest, AcceptingALeakIsOneUndoAndPartsWhatItTouches) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() > ran && idle(); }, patience));
   EXPECT_EQ(rows(), ran + 1) << "one entry of the history for both gaps";
   EXPECT_EQ(document().partitions.partitions.size(), 6u) << "without F5";
-  EXPECT_FALSE(document().find_partitions->out_of_date);
+  EXPECT_FALSE(document().step("find_partitions")->out_of_date);
   EXPECT_NEAR(sharp_length(), 120.0, 1e-9);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window->worklist().is_current(); }, patience));
   EXPECT_TRUE(std::ranges::none_of(window->worklist().items(), is_left));
@@ -274,7 +274,7 @@ TEST_F(GuidanceTest, PartitionsFoundBeforeTheLinesChangedStayInViewGreyed) {
   EXPECT_EQ(document().partitions.partitions.size(), count);
   EXPECT_LT(saturation(), 0.7F * before);
   EXPECT_GT(saturation(), 0.02F);
-  run({{"find_partitions", document().find_partitions->parameters}});
+  run({{"find_partitions", document().step("find_partitions")->parameters}});
   EXPECT_GT(saturation(), 0.9F * before);
 }
 

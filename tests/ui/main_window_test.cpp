@@ -117,7 +117,7 @@ TEST_F(MainWindowTest, F5FindsLinesAndPartitionsOnTheScanItself) {
   open_sample();
   run_both();
   EXPECT_EQ(rows(), 3u);
-  EXPECT_FALSE(document().simplify || document().equilateralize);
+  EXPECT_FALSE(document().step("simplify") || document().step("equilateralize"));
   EXPECT_EQ(document().mesh, document().opened.mesh);
   EXPECT_EQ(document().line_method(), LineMethod::normal_jump);
   EXPECT_FALSE(window->findChild<StepsPanel*>()->values("find_sharp_lines").contains("candidates"));
@@ -137,8 +137,10 @@ TEST_F(MainWindowTest, ThePapersFlowIsOneClickAndEachStepIsUndone) {
   paper->trigger();
   EXPECT_FALSE(paper->isEnabled()) << "while it runs";
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == ran + 4 && idle(); }, patience));
-  EXPECT_TRUE(document().simplify && document().equilateralize && document().find_partitions);
-  for (const char* name : {"simplify", "find_sharp_lines", "equilateralize", "find_partitions"})
+  EXPECT_TRUE(document().step("simplify") && document().step("equilateralize") &&
+              document().step("find_partitions"));
+  for (const std::string name :
+       {"simplify", "find_sharp_lines", "equilateralize", "find_partitions"})
     EXPECT_FALSE(document().step(name)->out_of_date) << name;
   EXPECT_EQ(document().line_method(), LineMethod::walk);
   EXPECT_LT(document().mesh->face_count(), document().opened.mesh->face_count());
@@ -174,7 +176,8 @@ TEST_F(MainWindowTest, TheMethodOnTheCardChangesHowLinesAreFound) {
   EXPECT_NE(walk["angle"], jump["angle"]) << "another measure, another default";
   EXPECT_NE(walk["min_length"], jump["min_length"]);
   QTest::keyClick(window.get(), Qt::Key_L, Qt::ControlModifier);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_sharp_lines && idle(); }, patience));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return document().step("find_sharp_lines") && idle(); }, patience));
   EXPECT_EQ(document().line_method(), LineMethod::walk);
   const std::size_t by_walk = document().lines.lines.size();
   choose("normal_jump");
@@ -188,7 +191,8 @@ TEST_F(MainWindowTest, TheMethodOnTheCardChangesHowLinesAreFound) {
 TEST_F(MainWindowTest, TheSliderOfDetailIsFollowedAndLeavesOneHistoryEntry) {
   open_sample();
   QTest::keyClick(window.get(), Qt::Key_F5);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return document().step("find_partitions") && idle(); }, patience));
   EXPECT_EQ(document().partition_method(), PartitionMethod::surfaces);
   QSlider* slider = nullptr;
   for (QSlider* one : window->findChild<StepsPanel*>()->findChildren<QSlider*>())
@@ -205,7 +209,7 @@ TEST_F(MainWindowTest, TheSliderOfDetailIsFollowedAndLeavesOneHistoryEntry) {
   slider->setSliderDown(false);
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == before + 1 && idle(); }, patience));
   EXPECT_LE(document().partitions.partitions.size(), found);
-  EXPECT_LT(document().find_partitions->parameters["detail"].get<double>(), 0.5);
+  EXPECT_LT(document().step("find_partitions")->parameters["detail"].get<double>(), 0.5);
   QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
   EXPECT_EQ(document().partitions.partitions.size(), found);
@@ -244,12 +248,12 @@ TEST_F(MainWindowTest, DraggingTheSharpAngleFollowsAndLeavesOneHistoryEntry) {
   }
   ASSERT_TRUE(QTest::qWaitFor([&] { return previews > 3; }, patience));
   EXPECT_EQ(rows(), 1u) << "nothing is journalled while the mouse moves";
-  EXPECT_FALSE(document().find_sharp_lines);
-  EXPECT_TRUE(shown().find_sharp_lines);
+  EXPECT_FALSE(document().step("find_sharp_lines"));
+  EXPECT_TRUE(shown().step("find_sharp_lines"));
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(48, 0));
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 2 && idle(); }, patience));
   EXPECT_GT(document().lines.lines.size(), 0u);
-  EXPECT_NEAR(document().find_sharp_lines->parameters["angle"].get<double>(),
+  EXPECT_NEAR(document().step("find_sharp_lines")->parameters["angle"].get<double>(),
               histogram.handles()[0].value, 0.05);
 }
 
@@ -267,7 +271,7 @@ TEST_F(MainWindowTest, DraggingTheAngleOfTheWalkLeavesOneHistoryEntry) {
   QTest::qWait(50);
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(20, 0));
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 3 && idle(); }, patience));
-  EXPECT_GT(document().find_sharp_lines->parameters["angle"].get<double>(), before);
+  EXPECT_GT(document().step("find_sharp_lines")->parameters["angle"].get<double>(), before);
   EXPECT_EQ(document().line_method(), LineMethod::walk);
 }
 
@@ -287,7 +291,7 @@ TEST_F(MainWindowTest, EscapeWhileDraggingRestores) {
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start + QPoint(30, 0));
   QTest::qWait(200);
   EXPECT_EQ(rows(), 1u);
-  EXPECT_FALSE(shown().find_sharp_lines);
+  EXPECT_FALSE(shown().step("find_sharp_lines"));
   EXPECT_DOUBLE_EQ(histogram.handles()[0].value, before);
 }
 
@@ -300,7 +304,7 @@ TEST_F(MainWindowTest, DraggingTheCurvatureBoundMovesThePartitions) {
   run({"find_partitions", {{"method", "fronts"}}});
   const std::uint32_t ran = rows();
   ASSERT_GE(histogram.handles().size(), 1u);
-  const auto before = document().find_partitions->parameters["intervals"];
+  const auto before = document().step("find_partitions")->parameters["intervals"];
   const QPoint start = histogram.handle_position(0);
   QTest::mousePress(&histogram, Qt::LeftButton, {}, start);
   for (int k = 1; k <= 6; ++k) {
@@ -309,8 +313,8 @@ TEST_F(MainWindowTest, DraggingTheCurvatureBoundMovesThePartitions) {
   }
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, start - QPoint(30, 0));
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == ran + 1 && idle(); }, patience));
-  EXPECT_NE(document().find_partitions->parameters["intervals"], before);
-  EXPECT_LT(document().find_partitions->parameters["intervals"][0][1].get<double>(),
+  EXPECT_NE(document().step("find_partitions")->parameters["intervals"], before);
+  EXPECT_LT(document().step("find_partitions")->parameters["intervals"][0][1].get<double>(),
             before[0][1].get<double>());
 }
 

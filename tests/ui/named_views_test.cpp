@@ -115,7 +115,8 @@ TEST_F(NamedViews, AreWalkedThroughByKeysAndComeBackWithTheSession) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows() == 1 && idle(); }, patience));
   EXPECT_EQ(names(), QStringList()) << "those were of another session";
   window->open(path);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return document().step("find_partitions") && idle(); }, patience));
   EXPECT_EQ(names(), (QStringList{"Partitions from above", "Mean curvature", "Third"}));
   EXPECT_FALSE(window->session().has_unsaved_edits());
   named().show(0);

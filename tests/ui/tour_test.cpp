@@ -117,7 +117,8 @@ TEST_F(Tour, LeadsThroughTheWorkAsEachThingIsDone) {
 
   QTest::keyClick(window.get(), Qt::Key_F5);
   ASSERT_TRUE(comes_to(tune));
-  EXPECT_TRUE(document().find_partitions && !document().find_partitions->out_of_date);
+  EXPECT_TRUE(document().step("find_partitions") &&
+              !document().step("find_partitions")->out_of_date);
   expect_beside_target();
 
   const std::uint32_t before = rows();

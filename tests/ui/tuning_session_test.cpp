@@ -91,13 +91,13 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
 
   // Prepare, find, and tune the sharp angle by its handle.
   press(Qt::Key_F5, Qt::ShiftModifier);  // the paper's flow
-  ASSERT_TRUE(settles([&] { return document().find_partitions.has_value(); }));
-  EXPECT_TRUE(document().simplify.has_value());
+  ASSERT_TRUE(settles([&] { return document().step("find_partitions").has_value(); }));
+  EXPECT_TRUE(document().step("simplify").has_value());
   EXPECT_LT(document().mesh->face_count(), document().opened.mesh->face_count());
   shot("02_prepared");
   window->set_field(Field::ihe);
   HistogramPanel& histogram = window->histogram();
-  const double angle_before = document().find_sharp_lines->parameters["angle"];
+  const double angle_before = document().step("find_sharp_lines")->parameters["angle"];
   const QPoint handle = histogram.handle_position(0);
   QTest::mousePress(&histogram, Qt::LeftButton, {}, handle);
   for (int k = 1; k <= 6; ++k) {
@@ -106,7 +106,7 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   }
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, handle + QPoint(12, 0));
   ASSERT_TRUE(settles([&] {
-    return document().find_sharp_lines->parameters["angle"].get<double>() > angle_before;
+    return document().step("find_sharp_lines")->parameters["angle"].get<double>() > angle_before;
   }));
   shot("03_tuned");
 
@@ -378,7 +378,7 @@ TEST_F(TuningSession, AnEditedCardSaysSoAndF5RunsIt) {
   open_sample();
   run_both();
   auto* panel = window->findChild<StepsPanel*>();
-  const double angle = document().find_sharp_lines->parameters.at("angle").get<double>();
+  const double angle = document().step("find_sharp_lines")->parameters.at("angle").get<double>();
   NumberBox* box = nullptr;
   for (NumberBox* each : panel->findChildren<NumberBox*>())
     if (each->accessibleName().contains("TV_IH")) box = each;
@@ -398,13 +398,14 @@ TEST_F(TuningSession, AnEditedCardSaysSoAndF5RunsIt) {
   EXPECT_TRUE(says_changed());
   press(Qt::Key_F5);
   ASSERT_TRUE(settles([&] { return rows() == before + 2 && idle(); })) << "lines, then partitions";
-  EXPECT_NEAR(document().find_sharp_lines->parameters.at("angle").get<double>(), angle + 8.0, 1e-9);
+  EXPECT_NEAR(document().step("find_sharp_lines")->parameters.at("angle").get<double>(),
+              angle + 8.0, 1e-9);
   EXPECT_FALSE(says_changed());
   EXPECT_FALSE(panel->is_edited("find_sharp_lines"));
   press(Qt::Key_Tab);  // the field is left as it was run
   QTest::qWait(200);
   EXPECT_EQ(rows(), before + 2);
-  EXPECT_FALSE(document().find_partitions->out_of_date);
+  EXPECT_FALSE(document().step("find_partitions")->out_of_date);
   box->setFocus();
   // Typed back to what it is: nothing has changed.
   box->selectAll();

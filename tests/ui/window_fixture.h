@@ -50,11 +50,13 @@ class MainWindowTest : public ::testing::Test {
   }
   void run_both() {
     QTest::keyClick(window.get(), Qt::Key_F5);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return document().step("find_partitions") && idle(); }, patience));
   }
   void run_paper_flow() {
     QTest::keyClick(window.get(), Qt::Key_F5, Qt::ShiftModifier);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return document().find_partitions && idle(); }, patience));
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return document().step("find_partitions") && idle(); }, patience));
   }
   void run(const Operation& operation) {
     window->session().run({operation});

@@ -81,7 +81,7 @@ TEST_F(WindowViewTest, ScanAndWorkingMeshSwitchByAKeyWhereTheyDiffer) {
   run("find_sharp_lines");
   EXPECT_EQ(view().surface(), ShownSurface::both);
   window->session().travel(1);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && !document().simplify; }, patience));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && !document().step("simplify"); }, patience));
   EXPECT_EQ(view().surface(), ShownSurface::mesh);
   EXPECT_FALSE(both->isEnabled());
 }
@@ -121,7 +121,8 @@ TEST_F(WindowViewTest, PartitionsHideIsolateAndComeBack) {
       }
   // Its partitions gone, nothing is hidden.
   window->session().travel(1);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && !document().find_partitions; }, patience));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return idle() && !document().step("find_partitions"); }, patience));
   EXPECT_FALSE(window->elements().hides_any());
   // The fitted part may have made room for the scalar bar, which is there again.
   EXPECT_TRUE(

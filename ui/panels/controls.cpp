@@ -15,6 +15,8 @@
 #include <QToolTip>
 #include <QWheelEvent>
 
+#include "core/base/words.h"
+
 namespace arris::ui {
 
 namespace {
@@ -74,9 +76,11 @@ QString edit_text(double value, int digits) {
 
 QString percent_text(double share) { return shown_number(100.0 * share, 2) + QStringLiteral(" %"); }
 
-QString count_text(qint64 count) {
-  return QLocale(QLocale::English, QLocale::UnitedStates).toString(count);
+QString shown_text(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
+
+QString count_text(qint64 count) { return QString::fromStdString(grouped(count)); }
 
 QString shown_count(std::size_t count, const QString& one, const QString& many) {
   return count_text(static_cast<qint64>(count)) + " " + (count == 1 ? one : many);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include <QColor>
 #include <QComboBox>
@@ -21,6 +22,8 @@ QString shown_number(double value, int digits = 4);
 QString edit_text(double value, int digits = 6);
 /// Share of a whole (0 to 1) as a percentage: "2.3 %".
 QString percent_text(double share);
+/// What the core calls something, for reading.
+QString shown_text(std::string_view text);
 /// A count for reading: "20,000".
 QString count_text(qint64 count);
 /// "1 face", "20,000 faces".

@@ -17,8 +17,6 @@ namespace {
 
 QString state_word(StepState state) {
   switch (state) {
-    case StepState::unavailable:
-      return QObject::tr("Coming later");
     case StepState::not_run:
       return QObject::tr("Not run");
     case StepState::done:
@@ -62,10 +60,6 @@ class StateIcon : public QWidget {
     const QColor paper = card_ground(palette());
     const QRectF circle(1.5, 1.5, 15, 15);
     switch (state_) {
-      case StepState::unavailable:
-        painter.setPen(QPen(colour, 1.4, Qt::DotLine));
-        painter.drawEllipse(circle);
-        return;
       case StepState::not_run:
         painter.setPen(QPen(colour, 1.6));
         painter.drawEllipse(circle);
@@ -101,23 +95,17 @@ StepCardFrame::StepCardFrame(const StepCard& card, QWidget* parent) : QWidget(pa
   auto* head = new QHBoxLayout;
   head->setSpacing(8);
   icon_ = new StateIcon(this);
-  title_ = available() ? new QLabel(this) : new MutedLabel({}, this);
+  title_ = new QLabel(this);
   title_->setWordWrap(true);
-  head->addWidget(icon_, 0, available() ? Qt::AlignTop : Qt::AlignVCenter);
+  head->addWidget(icon_, 0, Qt::AlignTop);
   head->addWidget(title_, 1);
   column->addLayout(head);
-  if (available()) {
-    column->setContentsMargins(10, 9, 10, 9);
-    column->setSpacing(6);
-    QFont bold = font();
-    bold.setBold(true);
-    title_->setFont(bold);
-    build_controls(column);
-  } else {
-    column->setContentsMargins(10, 3, 10, 3);
-    state_ = new MutedLabel({}, this);
-    head->addWidget(state_);
-  }
+  column->setContentsMargins(10, 9, 10, 9);
+  column->setSpacing(6);
+  QFont bold = font();
+  bold.setBold(true);
+  title_->setFont(bold);
+  build_controls(column);
   show_card(card);
 }
 
@@ -235,29 +223,25 @@ void StepCardFrame::arrange_form() {
 
 bool StepCardFrame::fits(const StepCard& card) const {
   return card.name == card_.name && card.title == card_.title &&
-         (card.state == StepState::unavailable) == !available() &&
-         (!available() ||
-          std::equal(card.parameters.begin(), card.parameters.end(), fields_.begin(), fields_.end(),
-                     [](const StepParameter& p, const std::unique_ptr<StepField>& field) {
-                       return field->fits(p);
-                     }));
+         std::equal(card.parameters.begin(), card.parameters.end(), fields_.begin(), fields_.end(),
+                    [](const StepParameter& p, const std::unique_ptr<StepField>& field) {
+                      return field->fits(p);
+                    });
 }
 
 void StepCardFrame::show_card(const StepCard& card) {
   card_ = card;
   setToolTip(card.tooltip);
   title_->setText(card.title);
-  if (available()) {
-    result_->setText(card.result);
-    result_->setVisible(!card.result.isEmpty());
-    for (std::size_t i = 0; i < fields_.size(); ++i)
-      if (card.parameters[i].hangs_on.isEmpty()) fields_[i]->update(card.parameters[i].value);
-    for (std::size_t i = 0; i < fields_.size(); ++i)
-      if (!card.parameters[i].hangs_on.isEmpty() && value_of(i).isValid())
-        fields_[i]->update(value_of(i));
-    show_hanging();
-    allow_run();
-  }
+  result_->setText(card.result);
+  result_->setVisible(!card.result.isEmpty());
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    if (card.parameters[i].hangs_on.isEmpty()) fields_[i]->update(card.parameters[i].value);
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    if (!card.parameters[i].hangs_on.isEmpty() && value_of(i).isValid())
+      fields_[i]->update(value_of(i));
+  show_hanging();
+  allow_run();
   show_state();
 }
 
@@ -267,7 +251,7 @@ void StepCardFrame::show_state() {
   const bool changed = ran && is_edited();
   icon_->set_state(changed ? StepState::out_of_date : card_.state);
   QString state = changed ? QObject::tr("Changed, not run") : state_word(card_.state);
-  if (available() && !changed && !card_.time.isEmpty()) state += QStringLiteral(" · ") + card_.time;
+  if (!changed && !card_.time.isEmpty()) state += QStringLiteral(" · ") + card_.time;
   state_->setText(state);
   update();
 }
@@ -294,7 +278,6 @@ void StepCardFrame::allow_run() {
 }
 
 void StepCardFrame::paintEvent(QPaintEvent*) {
-  if (!available()) return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QColor paper = card_ground(palette());

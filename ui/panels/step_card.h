@@ -20,7 +20,7 @@ namespace arris::ui {
 
 class MutedLabel;
 
-enum class StepState { unavailable, not_run, done, out_of_date };
+enum class StepState { not_run, done, out_of_date };
 
 /// A step of figure 2 as the panel shows it.
 struct StepCard {
@@ -80,7 +80,6 @@ class StepCardFrame : public QWidget {
         fields_[i]->rebase(value_of(i));
     show_hanging();
   }
-  bool available() const { return card_.state != StepState::unavailable; }
   /// The value that the card gives a parameter, by the choice it hangs on; invalid where the choice
   /// has no use for it.
   QVariant value_of(std::size_t i) const {

@@ -11,8 +11,7 @@
 
 namespace arris::ui {
 
-/// The left panel: the paper's figure 2 from top to bottom. A card that is `unavailable` (a phase
-/// of a later version) shows its place and its tooltip and has no controls.
+/// The left panel: the paper's figure 2 from top to bottom.
 class StepsPanel : public QWidget {
   Q_OBJECT
  public:

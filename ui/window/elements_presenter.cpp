@@ -5,6 +5,7 @@
 
 #include "core/base/number_text.h"
 #include "core/document/treatments/treatment.h"
+#include "ui/panels/controls.h"
 #include "ui/window/shown_elements.h"
 #include "ui/window/unit_suffix.h"
 
@@ -224,7 +225,7 @@ void ElementsPresenter::fill_boundaries_table() {
   for (std::uint32_t k = 0; k < boundaries.size(); ++k) {
     const Boundary& b = *boundaries[k];
     const std::string_view name = name_of(b.type);
-    QString type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    QString type = shown_text(name);
     // One value for one line, whichever table says it.
     const Line* line = b.type == BoundaryType::c0 ? lines.find(b.line) : nullptr;
     QVariant radius;
@@ -252,7 +253,7 @@ void ElementsPresenter::fill_partitions_table() {
     if (const auto known = fitted_.find(&p); known != fitted_.end()) {
       const PartitionSurface& fit = known->second.surface;
       const std::string_view name = name_of(fit.surface.type);
-      type = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+      type = shown_text(name);
       size = QString::fromStdString(size_text(fit.surface, length_unit_of(document)));
       if (fit.fitted) {
         mean = shown(fit.mean_deviation);

@@ -1,5 +1,7 @@
 #include "ui/window/export_dialog.h"
 
+#include "ui/panels/controls.h"
+
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
@@ -14,14 +16,6 @@
 #include <QVBoxLayout>
 
 namespace arris::ui {
-
-namespace {
-
-QString text_of(std::string_view text) {
-  return QString::fromUtf8(text.data(), qsizetype(text.size()));
-}
-
-}  // namespace
 
 ExportDialog::ExportDialog(QString prefix, QWidget* parent)
     : QDialog(parent), prefix_(std::move(prefix)) {
@@ -41,7 +35,7 @@ ExportDialog::ExportDialog(QString prefix, QWidget* parent)
             .arg(tr(QByteArray(file.title.data(), qsizetype(file.title.size()))), name_of(file)),
         files_);
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-    const bool on = chosen_before ? before.contains(text_of(file.name)) : file.usual;
+    const bool on = chosen_before ? before.contains(shown_text(file.name)) : file.usual;
     item->setCheckState(on ? Qt::Checked : Qt::Unchecked);
   }
   files_->setCurrentRow(0);
@@ -89,7 +83,9 @@ std::vector<const ResultFile*> ExportDialog::chosen() const {
 
 QString ExportDialog::folder() const { return QDir::fromNativeSeparators(folder_->text()); }
 
-QString ExportDialog::name_of(const ResultFile& file) const { return prefix_ + text_of(file.name); }
+QString ExportDialog::name_of(const ResultFile& file) const {
+  return prefix_ + shown_text(file.name);
+}
 
 void ExportDialog::choose_folder() {
   const QString folder =
@@ -107,7 +103,7 @@ void ExportDialog::update_buttons() {
 
 void ExportDialog::accept() {
   QStringList names;
-  for (const ResultFile* file : chosen()) names << text_of(file->name);
+  for (const ResultFile* file : chosen()) names << shown_text(file->name);
   QSettings settings;
   settings.setValue("export/files", names);
   settings.setValue("folders/results", folder());

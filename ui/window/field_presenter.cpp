@@ -6,15 +6,12 @@
 #include "core/base/number_text.h"
 #include "core/mesh/face_quality.h"
 #include "core/simplification/occupancy.h"
+#include "ui/panels/controls.h"
 #include "ui/window/saved_view.h"
 
 namespace arris::ui {
 
 namespace {
-
-QString text(std::string_view view) {
-  return QString::fromUtf8(view.data(), static_cast<qsizetype>(view.size()));
-}
 
 /// Colours of the classes of Shape, by shape_names() (figures 4 and 8).
 const std::vector<QColor>& shape_colours() {
@@ -75,7 +72,8 @@ QString FieldPresenter::why_not_available() {
 QString title_of(Field field, LengthUnit unit) {
   const FieldInfo& info = info_of(field);
   const std::string in = unit_of(field, unit);
-  return in.empty() ? text(info.name) : text(info.name) + " (" + QString::fromStdString(in) + ")";
+  return in.empty() ? shown_text(info.name)
+                    : shown_text(info.name) + " (" + QString::fromStdString(in) + ")";
 }
 
 FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramPanel* histogram,
@@ -89,7 +87,7 @@ FieldPresenter::FieldPresenter(MeshView* view, ColourMapPanel* panel, HistogramP
   QStringList names, tooltips;
   for (const FieldInfo& info : field_table()) {
     names << title_of(info.field);
-    tooltips << text(info.meaning);
+    tooltips << shown_text(info.meaning);
     ColourMapState& s = states_[static_cast<std::size_t>(info.field)];
     s.field = static_cast<int>(info.field);
     if (info.is_signed) s.scale.map = ColourMap::diverging;
@@ -212,7 +210,7 @@ void FieldPresenter::restore(const nlohmann::json& saved) {
 void FieldPresenter::work_out(LatestWork* work, const SharedLineEvidencePtr& evidence,
                               std::function<void(const LineEvidence&)> then) {
   const auto report = [this](double fraction, std::string_view what) {
-    QMetaObject::invokeMethod(this, [this, fraction, what = text(what)] {
+    QMetaObject::invokeMethod(this, [this, fraction, what = shown_text(what)] {
       if (working()) emit progress(fraction, what);
     });
   };
@@ -259,7 +257,7 @@ ViewField FieldPresenter::view_field(std::shared_ptr<const std::vector<double>> 
   shown.scale = scale();
   shown.read_as_radius = field_ == Field::kabs;
   if (info.is_class) {
-    for (const std::string_view name : shape_names()) shown.class_names << text(name);
+    for (const std::string_view name : shape_names()) shown.class_names << shown_text(name);
     shown.class_colours = shape_colours();
   }
   return shown;

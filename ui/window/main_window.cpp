@@ -411,12 +411,12 @@ void MainWindow::refresh_counts() {
     return;
   }
   QString text = shown_count(document.mesh->face_count(), tr("face"), tr("faces"));
-  if (document.find_sharp_lines)
+  if (document.step("find_sharp_lines"))
     text += "  ·  " + shown_count(document.lines.lines.size(), tr("line"), tr("lines"));
-  if (document.find_partitions)
+  if (document.step("find_partitions"))
     text += "  ·  " +
             shown_count(document.partitions.partitions.size(), tr("partition"), tr("partitions")) +
-            (document.find_partitions->out_of_date ? tr(" (out of date)") : QString());
+            (document.step("find_partitions")->out_of_date ? tr(" (out of date)") : QString());
   if (elements_->hides_any()) text += "  ·  " + tr("some hidden (Shift+H shows all)");
   counts_label_->setText(text);
 }

@@ -13,6 +13,7 @@
 #include <QStackedWidget>
 #include <QToolBar>
 
+#include "ui/panels/controls.h"
 #include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
 #include "ui/window/actions.h"
@@ -181,7 +182,7 @@ void MainWindow::make_field_menu(QMenu* menu) {
   for (const FieldInfo& info : field_table()) {
     QAction* a = action(menu, title_of(info.field),
                         QKeySequence(QString("Alt+%1").arg(QLatin1Char(info.key))),
-                        QString::fromUtf8(info.meaning.data(), qsizetype(info.meaning.size())));
+                        shown_text(info.meaning));
     a->setCheckable(true);
     a->setData(static_cast<int>(info.field));
     a->setChecked(info.field == fields_->field());

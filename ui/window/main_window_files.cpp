@@ -100,7 +100,7 @@ void MainWindow::take_opened() {
     view_->look_from(MeshView::StandardView::isometric);
   show_partitions(false);
   // A session that nobody looked at yet, as from the command line, shows what was found.
-  if (!restore_view(view_keepers(), session_->extras().view) && document.find_partitions)
+  if (!restore_view(view_keepers(), session_->extras().view) && document.step("find_partitions"))
     show_partitions(true);
   const nlohmann::json kept = parse_record(session_->extras().view);
   named_views_->restore(kept.is_object() && kept.contains("named") ? kept["named"]

@@ -19,6 +19,7 @@
 #include <QTextDocument>
 #include <QUrl>
 
+#include "ui/panels/controls.h"
 #include "ui/view/mesh_view.h"
 #include "ui/window/elements_presenter.h"
 #include "ui/window/field_presenter.h"
@@ -212,7 +213,7 @@ void ReportPresenter::write(ReportRequest request, bool paper,
         then(error);
       },
       [this](double fraction, std::string_view what) {
-        emit progress(fraction, QString::fromUtf8(what.data(), qsizetype(what.size())));
+        emit progress(fraction, shown_text(what));
       });
 }
 

@@ -364,7 +364,8 @@ void Session::take_over(Opened opened) {
   saved_names_ = history_.names();
   saved_extras_ = edited_extras_;
   show(std::move(opened.shown));
-  for (const auto* step : {&current_.document.find_sharp_lines, &current_.document.find_partitions})
+  for (const auto* step :
+       {&current_.document.step("find_sharp_lines"), &current_.document.step("find_partitions")})
     if (*step && !(*step)->parameters.value("corrections", true)) applies_corrections_ = false;
   emit this->opened();
   if (opened.no_recovery)

@@ -69,7 +69,7 @@ void show_partitions_in(MeshView& view, const Document& document,
   std::vector<QColor> by_label{QColor(205, 205, 205)};
   by_label.insert(by_label.end(), colours.begin(), colours.end());
   // Found before an earlier step changed: still there, but greyed.
-  if (document.find_partitions && document.find_partitions->out_of_date)
+  if (document.step("find_partitions") && document.step("find_partitions")->out_of_date)
     for (QColor& colour : by_label) colour = mix(colour, QColor(205, 205, 205), 0.6);
   view.set_face_labels(std::move(labels), std::move(by_label));
 }

@@ -77,7 +77,7 @@ StabilityPresenter::Basis StabilityPresenter::basis() const {
   nlohmann::json partitions = session_->current_parameters("find_partitions");
   // What surfaces decide by is no interval of curvature.
   const bool by_surfaces =
-      document.find_partitions && document.partition_method() == PartitionMethod::surfaces;
+      document.step("find_partitions") && document.partition_method() == PartitionMethod::surfaces;
   const bool by_criterion =
       !by_surfaces && ((field == Field::kabs && partitions["criterion"] == "kabs") ||
                        (field == Field::ikabs && partitions["criterion"] == "ikabs"));

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <QObject>
@@ -31,29 +33,28 @@ class StepsPresenter : public QObject {
   void edited();
 
  private:
-  bool wants_run(const char* step) const;
+  bool wants_run(const ChainStep& one) const;
   void refresh();
-  const nlohmann::json& line_defaults(const char* method);
-  StepCard lines_card();
-  StepCard partitions_card();
-  QString swaps_text(const MeshPtr& before, const MeshPtr& after);
+  StepCard scan_card() const;
+  /// The parameters of a step that its card shows, from the operation table.
+  std::vector<StepParameter> editors_of(const OperationKind& kind);
+  /// What a step that was run came to.
+  QString outcome_of(std::size_t place);
+  /// Parameters of a step as they would be by another method.
+  const nlohmann::json& defaults(const std::string& step, const std::string& method);
   Operation operation_from(const QString& step, const QVariantMap& values) const;
+  Operation from_card(const std::string& step) const;
 
   Session* session_;
   StepsPanel* panel_;
-  /// Results that take a look at the whole mesh, for the meshes they were worked out for.
-  struct Swaps {
-    MeshPtr before, after;
-    QString text;
-  };
-  std::vector<Swaps> swaps_;
-  /// Defaults of find_sharp_lines by the method that is not in use, for the scan they come from.
-  struct LineDefaults {
-    MeshPtr scan;
-    std::string method;
+  /// By the method that is not in use, for the scan that they come from.
+  struct MethodDefaults {
+    std::string scan, step, method;
     nlohmann::json parameters;
   };
-  LineDefaults line_defaults_;
+  std::vector<MethodDefaults> defaults_;
+  /// Results that take a look at the whole mesh: of what, and the text.
+  std::map<std::size_t, std::pair<std::string, QString>> outcomes_;
 };
 
 }  // namespace arris::ui

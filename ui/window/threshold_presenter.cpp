@@ -117,7 +117,8 @@ void ThresholdPresenter::refresh() {
     partitions = session_->parameters("find_partitions");
     const Document& document = session_->shown().document;
     if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs") ||
-        (document.find_partitions && document.partition_method() == PartitionMethod::surfaces))
+        (document.step("find_partitions") &&
+         document.partition_method() == PartitionMethod::surfaces))
       partitions = {};
   }
   if (partitions.contains("intervals")) {

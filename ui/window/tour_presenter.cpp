@@ -15,7 +15,7 @@
 #include <QTabBar>
 #include <QToolBar>
 
-#include "core/document/treatments/treatment.h"
+#include "core/document/operation.h"
 #include "ui/window/threshold_presenter.h"
 
 namespace arris::ui {
@@ -136,7 +136,9 @@ TourPresenter::TourPresenter(Session* session, FieldPresenter* fields, Histogram
     // Whoever sets to work does so without the tour.
     if (state_ == State::offering && operation != "open") end();
     if (operation == "find_sharp_lines" && std::exchange(dragged_, false)) tuned_ = true;
-    if (find_treatment(operation.toStdString())) corrected_ = true;
+    if (const OperationKind* kind = find_operation(operation.toStdString());
+        kind && kind->is_treatment())
+      corrected_ = true;
     refresh();
   });
   connect(session_, &Session::opened, this, &TourPresenter::take_opened);
@@ -245,7 +247,7 @@ bool TourPresenter::has_looked() const {
 }
 
 bool TourPresenter::has_found() const {
-  const std::optional<Step>& found = session_->current().document.find_partitions;
+  const std::optional<Step>& found = session_->current().document.step("find_partitions");
   return found && !found->out_of_date;
 }
 

@@ -16,6 +16,43 @@ namespace arris::ui {
 
 using nlohmann::json;
 
+namespace {
+
+const Parameter& parameter_of(std::string_view operation, std::string_view name) {
+  return *find_operation(operation)->find(name);
+}
+
+/// The slider of a parameter of the operation table.
+TreatmentBar::Number number_of(std::string_view operation, std::string_view name, double value) {
+  const Parameter& parameter = parameter_of(operation, name);
+  const bool whole = parameter.kind == ParameterKind::whole;
+  const double low = parameter.to > 0.0 ? parameter.from : parameter.least;
+  const double high = parameter.to > 0.0 ? parameter.to : parameter.most;
+  const QString unit = shown_text(parameter.unit);
+  return {low,
+          high,
+          std::clamp(std::round(value), low, high),
+          parameter.logarithmic,
+          whole ? " " + unit : unit,
+          shown_text(parameter.help) + " " +
+              TreatmentsPresenter::tr("Drag or type: the part follows; Enter accepts."),
+          whole};
+}
+
+TreatmentBar::Choice choice_of(std::string_view operation, std::string_view name) {
+  const Parameter& parameter = parameter_of(operation, name);
+  TreatmentBar::Choice choice{{}, shown_text(parameter.help)};
+  for (const ParameterChoice& one : parameter.choices) choice.texts << shown_text(one.label);
+  return choice;
+}
+
+/// The key of what is chosen in a choice_of().
+std::string_view chosen_in(std::string_view operation, std::string_view name, int place) {
+  return parameter_of(operation, name).choices[static_cast<std::size_t>(std::max(place, 0))].key;
+}
+
+}  // namespace
+
 TreatmentsPresenter::TreatmentsPresenter(Session* session, MeshView* view,
                                          ElementsPresenter* elements, TreatmentBar* bar,
                                          QObject* parent)
@@ -153,7 +190,7 @@ void TreatmentsPresenter::add_line_actions(QMenu* menu) {
               [this, region] {
                 return Operation{"recompute_lines", {{"region", region}, {"angle", bar_->value()}}};
               },
-              angle_number(angle_in_force()));
+              number_of("recompute_lines", "angle", angle_in_force()));
         });
       });
   menu->addSeparator();
@@ -364,16 +401,6 @@ double TreatmentsPresenter::angle_in_force() const {
   return session_->current_parameters("find_sharp_lines").value("angle", 30.0);
 }
 
-TreatmentBar::Number TreatmentsPresenter::angle_number(double value) const {
-  constexpr double low = 1.0, high = 90.0;
-  return {low,
-          high,
-          std::clamp(std::round(value), low, high),
-          false,
-          "°",
-          tr("Exterior angle an edge must have. Drag or type: the lines follow; Enter accepts.")};
-}
-
 TreatmentBar::Number TreatmentsPresenter::curvature_number(double value) const {
   // From the distribution in force: its largest bound up to where nearly everything passes.
   double bound = 0.0;
@@ -484,17 +511,15 @@ void TreatmentsPresenter::delete_selected() {
 
 void TreatmentsPresenter::extend_line() {
   const std::uint32_t id = *one_line();
-  const TreatmentBar::Choice ends{{tr("Both ends"), tr("First end"), tr("Last end")},
-                                  tr("Which ends of the line go on")};
   tune(
       tr("Extend line %1").arg(id),
       [this, id] {
-        static constexpr const char* names[] = {"both", "first", "last"};
-        return Operation{
-            "extend_line",
-            {{"line", id}, {"angle", bar_->value()}, {"ends", names[std::max(bar_->choice(), 0)]}}};
+        return Operation{"extend_line",
+                         {{"line", id},
+                          {"angle", bar_->value()},
+                          {"ends", chosen_in("extend_line", "ends", bar_->choice())}}};
       },
-      angle_number(0.75 * angle_in_force()), ends);
+      number_of("extend_line", "angle", 0.75 * angle_in_force()), choice_of("extend_line", "ends"));
 }
 
 void TreatmentsPresenter::merge() {
@@ -589,7 +614,7 @@ void TreatmentsPresenter::recompute_lines() {
       [this, ids] {
         return Operation{"recompute_lines", {{"lines", ids}, {"angle", bar_->value()}}};
       },
-      angle_number(angle_in_force()));
+      number_of("recompute_lines", "angle", angle_in_force()));
 }
 
 void TreatmentsPresenter::lock(bool locked) {
@@ -616,15 +641,13 @@ void TreatmentsPresenter::connect_partitions() {
     return b->type == BoundaryType::c0 && b->left != b->right && meant(b->left) && meant(b->right);
   });
   std::optional<TreatmentBar::Choice> lines;
-  if (line_between)
-    lines = TreatmentBar::Choice{
-        {tr("Sharp line between them stays"), tr("Sharp line between them goes")},
-        tr("What becomes of the sharp lines between the partitions")};
+  if (line_between) lines = choice_of("connect_partitions", "lines");
   tune(
       tr("Connect %n partitions", nullptr, static_cast<int>(ids.size())),
       [this, ids] {
         return Operation{"connect_partitions",
-                         {{"partitions", ids}, {"lines", bar_->choice() == 1 ? "remove" : "keep"}}};
+                         {{"partitions", ids},
+                          {"lines", chosen_in("connect_partitions", "lines", bar_->choice())}}};
       },
       {}, lines);
 }
@@ -674,12 +697,11 @@ void TreatmentsPresenter::split_partition() {
 
 void TreatmentsPresenter::remove_small() {
   // Begins where the smallest goes.
-  constexpr double low = 2.0, high = 10000.0, usual = 20.0;
+  constexpr double usual = 20.0;
   std::uint32_t smallest = 0;
   for (const PartitionPtr& partition : session_->current().document.partitions.partitions)
     if (!partition->locked && (smallest == 0 || partition->faces < smallest))
       smallest = partition->faces;
-  const double begin = std::clamp(std::max(usual, smallest + 1.0), low, high);
   tune(
       tr("Remove partitions under"),
       [this] {
@@ -687,25 +709,23 @@ void TreatmentsPresenter::remove_small() {
                          {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))},
                           {"fill", bar_->choice() != 1}}};
       },
-      TreatmentBar::Number{low, high, begin, true, tr(" faces"),
-                           tr("Partitions with fewer faces go. Drag or type; Enter accepts."),
-                           true},
+      number_of("remove_small_partitions", "faces", std::max(usual, smallest + 1.0)),
       TreatmentBar::Choice{{tr("Neighbours take them over"), tr("They leave holes")},
                            tr("What becomes of the faces they had")});
 }
 
 void TreatmentsPresenter::fill_unassigned() {
-  constexpr double low = 1.0;
-  const double high = std::max<double>(10.0, session_->current().document.partitions.labels.size());
+  // Up to all of this part.
+  TreatmentBar::Number faces = number_of("fill_unassigned", "faces", 1.0);
+  faces.high = std::max<double>(10.0, session_->current().document.partitions.labels.size());
+  faces.value = faces.high;
   tune(
       tr("Fill unassigned areas up to"),
       [this] {
         return Operation{"fill_unassigned",
                          {{"faces", static_cast<std::uint32_t>(std::lround(bar_->value()))}}};
       },
-      TreatmentBar::Number{low, high, high, true, tr(" faces"),
-                           tr("Larger areas stay in no partition. Drag or type; Enter accepts."),
-                           true});
+      faces);
 }
 
 }  // namespace arris::ui

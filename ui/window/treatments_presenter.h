@@ -51,7 +51,6 @@ class TreatmentsPresenter : public QObject {
   void tune(const QString& name, std::function<Operation()> operation,
             const std::optional<TreatmentBar::Number>& number,
             const std::optional<TreatmentBar::Choice>& choice = {});
-  TreatmentBar::Number angle_number(double value) const;
   TreatmentBar::Number curvature_number(double value) const;
   void preview();
   void accept();

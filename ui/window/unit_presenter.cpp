@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QSettings>
 
+#include "ui/panels/controls.h"
 #include "ui/panels/unit_bar.h"
 #include "ui/window/actions.h"
 
@@ -18,7 +19,7 @@ constexpr int most_dismissed = 200;  // scans that are remembered, the last ones
 
 QString name_of(LengthUnit unit) {
   const std::string_view name = info_of(unit).name;
-  QString text = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  QString text = shown_text(name);
   text[0] = text[0].toUpper();
   return text;
 }

@@ -167,7 +167,7 @@ void WorklistPresenter::take(std::vector<WorkItem> items) {
   items_ = std::move(items);
   // Lines drawn since the partitions were found part them already: what leaks can only be told once
   // they are found again. Until then the leaks known before are gone on with.
-  const std::optional<Step>& lines = session_->current().document.find_sharp_lines;
+  const std::optional<Step>& lines = session_->current().document.step("find_sharp_lines");
   if (partitions_out_of_date()) {
     if (lines != leaks_lines_) leaks_.clear();  // through lines that are no more
     std::erase_if(items_, [](const WorkItem& item) { return item.kind == WorkKind::leak; });
@@ -210,7 +210,7 @@ void WorklistPresenter::refresh_summary() {
   QString summary, empty;
   if (document.empty()) {
     empty = tr("Open a scan first.");
-  } else if (!document.find_sharp_lines && !document.find_partitions) {
+  } else if (!document.step("find_sharp_lines") && !document.step("find_partitions")) {
     empty = tr("What is left shows here once sharp lines or partitions were found.");
   } else {
     const auto count = std::ranges::count_if(items_, is_left);
@@ -360,7 +360,7 @@ void WorklistPresenter::bring_back() {
 }
 
 bool WorklistPresenter::partitions_out_of_date() const {
-  const std::optional<Step>& step = session_->current().document.find_partitions;
+  const std::optional<Step>& step = session_->current().document.step("find_partitions");
   return step && step->out_of_date;
 }
 

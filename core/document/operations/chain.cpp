@@ -1,16 +1,14 @@
 #include "core/document/operations/chain.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/simplification/working_mesh.h"
 
 namespace arris {
 
-Stage stage_before(const Document& document, std::string_view step) {
-  const auto place = std::find(chain.begin(), chain.end(), step) - chain.begin();
-  if (place > 1 && document.swapped.mesh) return document.swapped;
-  if (place > 0 && document.simplified.mesh) return document.simplified;
+Stage stage_before(const Document& document, StepName step) {
+  for (std::size_t k = step.place; k-- > 0;)
+    if (document.outputs[k].mesh) return document.outputs[k];
   return document.opened;
 }
 
@@ -42,20 +40,18 @@ Result<void> change_mesh(Document& document, Stage stage, const Context& context
   return {};
 }
 
-void outdate_after(Document& document, std::string_view step) {
-  const auto own = std::find(chain.begin(), chain.end(), step);
-  const auto after = [&](std::string_view name) {
-    return own == chain.end() || std::find(chain.begin(), chain.end(), name) > own;
-  };
-  for (const auto& [name, record] :
-       {std::pair{"simplify", &document.simplify}, std::pair{"swap_edges", &document.swap_edges},
-        std::pair{"find_sharp_lines", &document.find_sharp_lines},
-        std::pair{"equilateralize", &document.equilateralize},
-        std::pair{"smooth_curvature", &document.smooth_curvature},
-        std::pair{"find_partitions", &document.find_partitions}})
-    if (*record && after(name)) (*record)->out_of_date = true;
-  if (after("simplify")) document.simplified = {};
-  if (after("swap_edges")) document.swapped = {};
+namespace {
+
+void outdate_from(Document& document, std::size_t first) {
+  for (std::size_t k = first; k < chain_steps.size(); ++k) {
+    if (document.steps[k]) document.steps[k]->out_of_date = true;
+    document.outputs[k] = {};
+  }
 }
+
+}  // namespace
+
+void outdate_after(Document& document, StepName step) { outdate_from(document, step.place + 1); }
+void outdate_all(Document& document) { outdate_from(document, 0); }
 
 }  // namespace arris

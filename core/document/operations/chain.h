@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-
 #include "core/base/context.h"
 #include "core/base/result.h"
 #include "core/document/document.h"
@@ -10,12 +7,8 @@
 /// The steps of figure 2 as a chain (document.md, rule 3), for the operations.
 namespace arris {
 
-inline constexpr std::array<std::string_view, 6> chain{"simplify",         "swap_edges",
-                                                       "find_sharp_lines", "equilateralize",
-                                                       "smooth_curvature", "find_partitions"};
-
 /// The output that `step` starts from: of the last step before it that has one.
-Stage stage_before(const Document& document, std::string_view step);
+Stage stage_before(const Document& document, StepName step);
 
 /// Makes `stage` the current mesh (its curvatures are computed where it has none). Sharp edges that
 /// the new mesh still has inside stay and the lines are linked again; smoothed curvatures and
@@ -26,8 +19,10 @@ Result<void> change_mesh(Document& document, Stage stage, const Context& context
 /// inside.
 std::vector<Origin> sharp_edges_on(const Document& document, const Mesh& mesh);
 
-/// Marks what comes after `step` as out of date (everything for "open") and drops the outputs of
+/// Marks what comes after `step` as out of date and drops the outputs of
 /// later steps that change the mesh.
-void outdate_after(Document& document, std::string_view step);
+void outdate_after(Document& document, StepName step);
+/// The same for all steps: the scan itself is another one.
+void outdate_all(Document& document);
 
 }  // namespace arris

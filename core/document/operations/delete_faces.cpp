@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/words.h"
 #include "core/document/operations/chain.h"
@@ -11,48 +10,23 @@ namespace arris {
 
 namespace {
 
-constexpr std::int64_t most_faces = std::numeric_limits<std::int32_t>::max();
+bool are_faces_of_scan(nlohmann::json& value, const Document& document) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), [&](const auto& face) {
+           return face.is_array() && face.size() == 3 &&
+                  std::all_of(face.begin(), face.end(),
+                              [](const auto& v) {
+                                return v.is_number_unsigned() &&
+                                       v.template get<std::uint64_t>() < no_id;
+                              }) &&
+                  document.opened.mesh->find_face({face[0], face[1], face[2]}).has_value();
+         });
+}
 
-/// `faces`: [[a, b, c], ...]; or `components_under`: components with fewer faces; or `box`:
-/// [x0, y0, z0, x1, y1, z1] with `side` "inside" or "outside" (of the face's centre).
-Result<nlohmann::json> resolve_delete(const Document& document, const nlohmann::json& given) {
-  ParameterReader reader("delete_faces", given);
-  const int ways = reader.has("faces") + reader.has("components_under") + reader.has("box");
-  const nlohmann::json faces = reader.raw("faces"), box = reader.raw("box");
-  if (reader.has("components_under")) reader.whole("components_under", 0, 1, most_faces);
-  reader.raw("components_under");
-  reader.raw("side");
-  if (ways != 1) reader.fault("faces", "exactly one of faces, components_under and box");
-  if (reader.has("faces")) {
-    if (!faces.is_array()) {
-      reader.fault("faces", "a list of faces [a, b, c] by vertex id");
-    } else {
-      for (const auto& face : faces) {
-        if (!face.is_array() || face.size() != 3 ||
-            !std::all_of(face.begin(), face.end(), [](const auto& v) {
-              return v.is_number_unsigned() && v.template get<std::uint64_t>() < no_id;
-            })) {
-          reader.fault("faces", "a list of faces [a, b, c] by vertex id");
-          break;
-        }
-        if (!document.opened.mesh->find_face({face[0], face[1], face[2]})) {
-          reader.fault("faces", "faces of the scan; it has none with vertices " + face.dump());
-          break;
-        }
-      }
-      reader.set("faces", faces);
-    }
-  }
-  if (reader.has("box")) {
-    if (!box.is_array() || box.size() != 6 ||
-        !std::all_of(box.begin(), box.end(), [](const auto& x) {
-          return x.is_number() && std::isfinite(x.template get<double>());
-        }))
-      reader.fault("box", "six numbers [x0, y0, z0, x1, y1, z1]");
-    reader.set("box", box);
-    reader.choice("side", "inside", {"inside", "outside"});
-  }
-  return reader.finish();
+bool is_box(nlohmann::json& value, const Document&) {
+  return value.is_array() && value.size() == 6 &&
+         std::all_of(value.begin(), value.end(), [](const auto& x) {
+           return x.is_number() && std::isfinite(x.template get<double>());
+         });
 }
 
 std::vector<bool> chosen_faces(const Mesh& mesh, const nlohmann::json& parameters) {
@@ -124,7 +98,7 @@ Result<Document> apply_delete(const Document& document, const nlohmann::json& pa
     scan_faces->push_back(document.scan_faces ? (*document.scan_faces)[f] : f);
   }
   Document result = document;
-  outdate_after(result, "open");
+  outdate_all(result);
   if (const auto changed =
           change_mesh(result, {built->mesh, nullptr, nullptr, nullptr}, context.part(0.5, 1.0));
       !changed)
@@ -144,7 +118,36 @@ std::string words_of_delete(const nlohmann::json& parameters) {
 
 }  // namespace
 
-const OperationKind delete_faces_operation{"delete_faces", "Delete faces", 1,
-                                           resolve_delete, apply_delete,   words_of_delete};
+std::vector<OperationKind> delete_faces_rows() {
+  constexpr std::string_view which = "which faces";
+  return {{.name = "delete_faces",
+           .title = "Delete faces",
+           .help = "Takes faces out of the part: some of them, loose pieces, or what is in a box.",
+           .parameters = {{.name = "faces",
+                           .help = "The faces themselves, by their vertices.",
+                           .one_of = which,
+                           .form = "a list of faces of the scan, [a, b, c] by vertex id",
+                           .accepts = are_faces_of_scan},
+                          {.name = "components_under",
+                           .kind = ParameterKind::whole,
+                           .help = "Pieces of the part with fewer faces.",
+                           .unit = "faces",
+                           .least = 1,
+                           .most = most_faces,
+                           .one_of = which},
+                          {.name = "box",
+                           .help = "Faces whose centre is in it.",
+                           .one_of = which,
+                           .form = "six numbers [x0, y0, z0, x1, y1, z1]",
+                           .accepts = is_box},
+                          {.name = "side",
+                           .kind = ParameterKind::choice,
+                           .help = "What goes: what is in the box, or all else.",
+                           .choices = {{"inside", "Inside"}, {"outside", "Outside"}},
+                           .otherwise = "inside",
+                           .only_with = "box"}},
+           .apply = apply_delete,
+           .words = words_of_delete}};
+}
 
 }  // namespace arris

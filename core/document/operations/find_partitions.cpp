@@ -1,7 +1,7 @@
 #include <cmath>
-#include <limits>
 
 #include "core/base/number_text.h"
+#include "core/base/words.h"
 #include "core/document/operations/operations.h"
 #include "core/document/treatments/treatment.h"
 #include "core/partitions/intervals.h"
@@ -10,49 +10,35 @@ namespace arris {
 
 namespace {
 
-constexpr const char* interval_form = "a list of intervals [min, max] with 0 <= min < max";
+PartitionMethod method_in(const nlohmann::json& parameters) {
+  return parameters.at("method") == "surfaces" ? PartitionMethod::surfaces
+                                               : PartitionMethod::fronts;
+}
 
-/// A missing upper end ("null") stands for no upper bound.
-Result<nlohmann::json> resolve_partitions(const Document& document, const nlohmann::json& given) {
-  ParameterReader reader("find_partitions", given);
-  // Who names intervals means fronts.
-  const bool has_intervals =
-      given.contains("intervals") && given["intervals"].is_array() && !given["intervals"].empty();
-  const PartitionMethod method = reader.choice("method", has_intervals ? "fronts" : "surfaces",
-                                               {"surfaces", "fronts"}) == "surfaces"
-                                     ? PartitionMethod::surfaces
-                                     : PartitionMethod::fronts;
-  reader.real("detail", 1.0, 0.05, 20.0);
-  const Criterion criterion = reader.choice("criterion", "kabs", {"kabs", "ikabs"}) == "kabs"
-                                  ? Criterion::kabs
-                                  : Criterion::ikabs;
-  const nlohmann::json intervals = reader.raw("intervals");
-  if (intervals.is_null() || (intervals.is_array() && intervals.empty())) {
-    nlohmann::json chosen = nlohmann::json::array();
-    for (const CurvatureInterval& interval :
-         default_intervals(*document.mesh, *document.shown_curvatures(), criterion, document.lines))
-      chosen.push_back({interval.min, std::isfinite(interval.max) ? nlohmann::json(interval.max)
-                                                                  : nlohmann::json()});
-    reader.set("intervals", std::move(chosen));
-  } else {
-    bool good = intervals.is_array();
-    if (good)
-      for (const auto& interval : intervals) {
-        good = good && interval.is_array() && interval.size() == 2 && interval[0].is_number() &&
-               (interval[1].is_number() || interval[1].is_null()) &&
-               std::isfinite(interval[0].get<double>()) && interval[0].get<double>() >= 0.0 &&
-               (interval[1].is_null() || interval[1].get<double>() > interval[0].get<double>());
-      }
-    if (!good) reader.fault("intervals", interval_form);
-    reader.set("intervals", intervals);
-  }
-  reader.whole("min_faces", default_min_faces(*document.mesh, method), 1,
-               std::numeric_limits<std::int32_t>::max());
-  reader.whole("fill_holes", default_fill_holes(*document.mesh), 0,
-               std::numeric_limits<std::int32_t>::max());
-  // Corrections made by hand are done again on what is found.
-  reader.flag("corrections", true);
-  return reader.finish();
+/// Who names intervals means fronts.
+nlohmann::json default_method(const DefaultFrom& from) {
+  const auto given = from.given.find("intervals");
+  return given != from.given.end() && given->is_array() && !given->empty() ? "fronts" : "surfaces";
+}
+
+nlohmann::json intervals_of_part(const DefaultFrom& from) {
+  const Document& document = from.document;
+  const Criterion criterion =
+      from.resolved.at("criterion") == "kabs" ? Criterion::kabs : Criterion::ikabs;
+  nlohmann::json chosen = nlohmann::json::array();
+  for (const CurvatureInterval& interval :
+       default_intervals(*document.mesh, *document.shown_curvatures(), criterion, document.lines))
+    chosen.push_back({interval.min, std::isfinite(interval.max) ? nlohmann::json(interval.max)
+                                                                : nlohmann::json()});
+  return chosen;
+}
+
+nlohmann::json least_faces(const DefaultFrom& from) {
+  return default_min_faces(*from.document.mesh, method_in(from.resolved));
+}
+
+nlohmann::json speck_faces(const DefaultFrom& from) {
+  return default_fill_holes(*from.document.mesh);
 }
 
 Result<Document> apply_partitions(const Document& document, const nlohmann::json& parameters,
@@ -60,7 +46,7 @@ Result<Document> apply_partitions(const Document& document, const nlohmann::json
   Document result = document;
   if (const auto found = refind_partitions(result, parameters, context); !found)
     return tl::unexpected<Error>(found.error());
-  result.find_partitions = Step{parameters, false};
+  result.step("find_partitions") = Step{parameters, false};
   return result;
 }
 
@@ -83,10 +69,82 @@ std::string words_of_partitions(const nlohmann::json& parameters) {
          intervals;
 }
 
+std::string outcome_of_partitions(const Document& document) {
+  return counted(document.partitions.partitions.size(), "partition", "partitions") + ", " +
+         fixed_text(100.0 * assigned_share(document), 1) + " % of the area";
+}
+
 }  // namespace
 
-const OperationKind find_partitions_operation{
-    "find_partitions",   "Find partitions", 2, resolve_partitions, apply_partitions,
-    words_of_partitions, upgrade_partitions};
+std::vector<OperationKind> find_partitions_rows() {
+  const std::vector<Parameter> parameters{
+      {.name = "method",
+       .kind = ParameterKind::choice,
+       .label = "Method",
+       .help = "Surfaces: areas that one plane, sphere, cylinder, cone, torus or free-form surface "
+               "explains within the noise. Fronts: the paper's, under intervals of curvature.",
+       .choices = {{"surfaces", "Fitted surfaces"}, {"fronts", "Fronts of curvature (paper)"}},
+       .otherwise = {"whether intervals are given: fronts, else surfaces", default_method},
+       .option = "partitions"},
+      {.name = "detail",
+       .kind = ParameterKind::real,
+       .label = "Detail",
+       .help = "From few large partitions to many small ones; 1 is what the noise of the scan "
+               "allows to tell apart. The partitions follow the slider.",
+       .least = 0.05,
+       .most = 20.0,
+       .otherwise = 1.0,
+       .method = "surfaces",
+       .logarithmic = true,
+       .option = "detail"},
+      {.name = "criterion",
+       .kind = ParameterKind::choice,
+       .label = "Criterion",
+       .help = "Kabs on dense meshes, its invariant IKabs on sparse ones.",
+       .choices = {{"kabs", "Kabs"}, {"ikabs", "IKabs"}},
+       .otherwise = "kabs",
+       .method = "fronts",
+       .option = "criterion"},
+      {.name = "intervals",
+       .kind = ParameterKind::intervals,
+       .label = "Intervals",
+       .help = "Curvature intervals Kmin – Kmax, run one after the other over what is left.",
+       .otherwise = {"the distribution of the criterion", intervals_of_part},
+       .method = "fronts",
+       .option = "interval"},
+      {.name = "min_faces",
+       .kind = ParameterKind::whole,
+       .label = "Least faces",
+       .help = "Smaller partitions are not kept; those of surfaces join the one beside them.",
+       .unit = "faces",
+       .least = 1,
+       .most = most_faces,
+       .otherwise = {"the number of faces of the part", least_faces},
+       .by_method = true,
+       .option = "min-faces"},
+      {.name = "fill_holes",
+       .kind = ParameterKind::whole,
+       .label = "Fill under",
+       .help = "Unassigned areas with fewer faces join the partition around them; 0 fills none.",
+       .unit = "faces",
+       .most = most_faces,
+       .otherwise = {"the number of faces of the part", speck_faces},
+       .method = "fronts",
+       .option = "fill-holes"},
+      {.name = "corrections",
+       .kind = ParameterKind::flag,
+       .help = "Whether corrections made by hand are done again on what is found.",
+       .otherwise = true}};
+  return {{.name = "find_partitions",
+           .title = "Find partitions",
+           .help = "Splits the part into areas that one surface explains, or into areas of slowly "
+                   "varying curvature by the paper's fronts (section 7).",
+           .version = 2,
+           .parameters = parameters,
+           .apply = apply_partitions,
+           .words = words_of_partitions,
+           .upgrade = upgrade_partitions,
+           .outcome = outcome_of_partitions}};
+}
 
 }  // namespace arris

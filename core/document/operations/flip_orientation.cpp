@@ -9,10 +9,6 @@ namespace arris {
 
 namespace {
 
-Result<nlohmann::json> resolve_flip(const Document&, const nlohmann::json& given) {
-  return ParameterReader("flip_orientation", given).finish();
-}
-
 Result<Stage> flipped(const Stage& stage, const Context& context) {
   if (!stage.mesh) return Stage{};
   std::vector<Triangle> triangles = stage.mesh->triangles();
@@ -33,7 +29,9 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
   Document result = document;
   Stage current{document.mesh, document.curvatures, document.zones, document.evidence};
   std::vector<std::pair<MeshPtr, Stage>> done;  // outputs share meshes
-  for (Stage* stage : {&result.opened, &result.simplified, &result.swapped, &current}) {
+  std::vector<Stage*> stages{&result.opened, &current};
+  for (Stage& output : result.outputs) stages.push_back(&output);
+  for (Stage* stage : stages) {
     const auto known = std::find_if(done.begin(), done.end(),
                                     [&](const auto& d) { return d.first == stage->mesh; });
     if (known != done.end()) {
@@ -67,11 +65,13 @@ Result<Document> apply_flip(const Document& document, const nlohmann::json&,
   return result;
 }
 
-std::string words_of_flip(const nlohmann::json&) { return "Flip orientation"; }
-
 }  // namespace
 
-const OperationKind flip_orientation_operation{
-    "flip_orientation", "Flip orientation", 1, resolve_flip, apply_flip, words_of_flip};
+std::vector<OperationKind> orientation_rows() {
+  return {{.name = "flip_orientation",
+           .title = "Flip orientation",
+           .help = "Turns all faces over: convex becomes concave.",
+           .apply = apply_flip}};
+}
 
 }  // namespace arris

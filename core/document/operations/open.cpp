@@ -34,31 +34,20 @@ std::optional<std::string> from_hexadecimal(const std::string& text) {
   return bytes;
 }
 
-Result<nlohmann::json> resolve_open(const Document&, const nlohmann::json& given) {
-  ParameterReader reader("open", given);
-  const std::string file = reader.text("file", "");
-  // A journal and every report are UTF-8: a name that is not could not be written down.
-  if (!is_utf8(file))
-    return fail("open: the name of the file is not valid UTF-8; it is given by \"file_bytes\".");
-  if (file.empty()) reader.fault("file", "the path of a mesh file");
-  if (reader.has("file_bytes") &&
-      from_hexadecimal(reader.text("file_bytes", "")).value_or("").empty())
-    reader.fault("file_bytes", "the bytes of a path in hexadecimal digits");
-  reader.flag("weld", true);
-  // Known only once the file is read; perform() adds it then.
-  if (reader.has("hash")) reader.text("hash", "");
-  return reader.finish();
+/// A journal and every report are UTF-8: a name that is not could not be written down.
+bool is_writable_name(nlohmann::json& value, const Document&) {
+  const std::string& name = value.get_ref<const std::string&>();
+  return !name.empty() && is_utf8(name);
+}
+
+bool is_hexadecimal(nlohmann::json& value, const Document&) {
+  return !from_hexadecimal(value.get<std::string>()).value_or("").empty();
 }
 
 /// Before version 2 nothing was joined but the corners of STL.
 nlohmann::json upgrade_open(int, nlohmann::json parameters) {
   parameters["weld"] = false;
   return parameters;
-}
-
-Result<Document> apply_open(const Document& document, const nlohmann::json& parameters,
-                            const Context& context) {
-  return open_scan_of(document, parameters, nullptr, context);
 }
 
 std::string words_of_open(const nlohmann::json& parameters) {
@@ -69,8 +58,36 @@ std::string words_of_open(const nlohmann::json& parameters) {
 
 }  // namespace
 
-const OperationKind open_operation{"open",     "Open",        2,           resolve_open,
-                                   apply_open, words_of_open, upgrade_open};
+std::vector<OperationKind> open_rows() {
+  return {{.name = "open",
+           .title = "Open",
+           .help = "Reads a scan: STL, PLY, OBJ, OFF (also as .gz) or 3MF.",
+           .version = 2,
+           .parameters = {{.name = "file",
+                           .kind = ParameterKind::text,
+                           .help = "Where it is.",
+                           .form = "the path of a mesh file in UTF-8 (one that is not is given by "
+                                   "\"file_bytes\")",
+                           .accepts = is_writable_name},
+                          {.name = "file_bytes",
+                           .kind = ParameterKind::text,
+                           .help = "The same where its name is not UTF-8; \"file\" is for people "
+                                   "then.",
+                           .optional = true,
+                           .form = "the bytes of a path in hexadecimal digits",
+                           .accepts = is_hexadecimal},
+                          {.name = "weld",
+                           .kind = ParameterKind::flag,
+                           .help = "Vertices on one place become one.",
+                           .otherwise = true},
+                          // Known only once the file is read; perform() adds it then.
+                          {.name = "hash",
+                           .kind = ParameterKind::text,
+                           .help = "SHA-256 of what it has to hold.",
+                           .optional = true}},
+           .words = words_of_open,
+           .upgrade = upgrade_open}};
+}
 
 std::string opened_path(const nlohmann::json& parameters) {
   if (parameters.contains("file_bytes"))

@@ -1,10 +1,14 @@
 // simplify, swap_edges and equilateralize: the phases of figure 2 that change the mesh.
 
-#include "core/base/number_text.h"
+#include <algorithm>
+#include <iterator>
+
+#include "core/base/words.h"
 #include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
 #include "core/edge_swapping/equilateralize.h"
 #include "core/edge_swapping/swap_edges.h"
+#include "core/mesh/face_quality.h"
 #include "core/simplification/noise.h"
 #include "core/simplification/simplify.h"
 
@@ -19,10 +23,8 @@ ChunkedArray<Origin> locked_edges(const Document& document, const Mesh& base) {
 }
 
 /// Takes the result of a phase over as the current mesh; `output` keeps it for the steps after.
-Result<Document> take(const Document& document, const Stage& base, Prepared prepared,
-                      std::string_view step, std::optional<Step> Document::*record,
-                      Stage Document::*output, const nlohmann::json& parameters,
-                      const Context& context) {
+Result<Document> take(const Document& document, const Stage& base, Prepared prepared, StepName step,
+                      const nlohmann::json& parameters, const Context& context) {
   Document result = document;
   outdate_after(result, step);
   Stage stage{std::move(prepared.mesh), nullptr, std::move(prepared.zones), nullptr};
@@ -34,25 +36,22 @@ Result<Document> take(const Document& document, const Stage& base, Prepared prep
   if (const auto changed = change_mesh(result, stage, context); !changed)
     return tl::unexpected<Error>(changed.error());
   result.zones = stage.zones;
-  if (output) result.*output = {result.mesh, result.curvatures, result.zones, result.evidence};
-  result.*record = Step{parameters, false};
+  if (chain_steps[step.place].leaves_mesh)
+    result.outputs[step.place] = {result.mesh, result.curvatures, result.zones, result.evidence};
+  result.step(step) = Step{parameters, false};
   return result;
 }
 
-Result<nlohmann::json> resolve_simplify(const Document& document, const nlohmann::json& given) {
-  const double longest = 1000.0 * document.mesh->diagonal();
-  ParameterReader reader("simplify", given);
-  const bool has_zone = reader.has("error_zone") && !given["error_zone"].is_null();
-  reader.real("error_zone", has_zone ? 0.0 : default_error_zone(*document.opened.mesh), 0.0,
-              longest);
-  const double edge =
-      reader.real("max_edge_length", default_max_edge_length(*document.opened.mesh), 0.0, longest);
-  // The area gives the truest normals (see StarCost), but is slow on the big stars that grow where
-  // edges may have any length.
-  reader.choice("cost", edge > 0.0 ? "area" : "angle", {"flat", "angle", "area"});
-  reader.whole("target_vertices", 0, 0, 0x7FFFFFFF);
-  reader.flag("again", false);
-  return reader.finish();
+nlohmann::json zone_of_noise(const DefaultFrom& from) {
+  return default_error_zone(*from.document.opened.mesh);
+}
+nlohmann::json edges_of_scan(const DefaultFrom& from) {
+  return default_max_edge_length(*from.document.opened.mesh);
+}
+/// The area gives the truest normals (see StarCost), but is slow on the big stars that grow where
+/// edges may have any length.
+nlohmann::json affordable_cost(const DefaultFrom& from) {
+  return from.resolved.at("max_edge_length").get<double>() > 0.0 ? "area" : "angle";
 }
 
 Result<Document> apply_simplify(const Document& document, const nlohmann::json& parameters,
@@ -74,17 +73,12 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
   Result<Prepared> prepared =
       simplify(*base.mesh, base.zones, locked, options, context.part(0.0, 0.9));
   if (!prepared) return tl::unexpected<Error>(prepared.error());
-  return take(document, base, std::move(*prepared), "simplify", &Document::simplify,
-              &Document::simplified, parameters, context.part(0.9, 1.0));
+  return take(document, base, std::move(*prepared), "simplify", parameters, context.part(0.9, 1.0));
 }
 
 std::string words_of_simplify(const nlohmann::json& parameters) {
   if (!parameters.contains("error_zone")) return "Simplify";
   return "Simplify within " + number_text(parameters["error_zone"].get<double>(), 3);
-}
-
-Result<nlohmann::json> resolve_swap(const Document&, const nlohmann::json& given) {
-  return ParameterReader("swap_edges", given).finish();
 }
 
 Result<Document> apply_swap(const Document& document, const nlohmann::json& parameters,
@@ -95,12 +89,8 @@ Result<Document> apply_swap(const Document& document, const nlohmann::json& para
   Result<Prepared> prepared =
       swap_edges(*base.mesh, base.zones, locked, {}, context.part(0.0, 0.9));
   if (!prepared) return tl::unexpected<Error>(prepared.error());
-  return take(document, base, std::move(*prepared), "swap_edges", &Document::swap_edges,
-              &Document::swapped, parameters, context.part(0.9, 1.0));
-}
-
-Result<nlohmann::json> resolve_equilateralize(const Document&, const nlohmann::json& given) {
-  return ParameterReader("equilateralize", given).finish();
+  return take(document, base, std::move(*prepared), "swap_edges", parameters,
+              context.part(0.9, 1.0));
 }
 
 Result<Document> apply_equilateralize(const Document& document, const nlohmann::json& parameters,
@@ -109,21 +99,112 @@ Result<Document> apply_equilateralize(const Document& document, const nlohmann::
   Result<Prepared> prepared = equilateralize(
       *base.mesh, base.zones, locked_edges(document, *base.mesh), {}, context.part(0.0, 0.9));
   if (!prepared) return tl::unexpected<Error>(prepared.error());
-  return take(document, base, std::move(*prepared), "equilateralize", &Document::equilateralize,
-              nullptr, parameters, context.part(0.9, 1.0));
+  return take(document, base, std::move(*prepared), "equilateralize", parameters,
+              context.part(0.9, 1.0));
 }
 
-std::string words_of_swap(const nlohmann::json&) { return "Swap edges"; }
-std::string words_of_equilateralize(const nlohmann::json&) { return "Equilateralise"; }
+std::size_t vertices_used(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (VertexId v = 0; v < mesh.vertex_count(); ++v) count += !mesh.is_isolated(v);
+  return count;
+}
+
+std::string outcome_of_simplify(const Document& document) {
+  const Stage& output = document.output("simplify");
+  if (!output.mesh) return {};
+  const double zone = document.step("simplify")->parameters.value("error_zone", 0.0);
+  return grouped(vertices_used(*document.opened.mesh)) + " → " +
+         counted(vertices_used(*output.mesh), "vertex", "vertices") + ", all within " +
+         with_unit(number_text(zone, 3), length_unit_of(document));
+}
+
+/// What swapping made of one mesh.
+std::string swaps_in_words(const Mesh& before, const Mesh& after) {
+  std::vector<EdgeVertices> fresh;  // both lists are sorted
+  std::set_difference(after.edges().begin(), after.edges().end(), before.edges().begin(),
+                      before.edges().end(), std::back_inserter(fresh));
+  constexpr double wide = 120.0;  // °
+  const auto share = [&](const Mesh& mesh) {
+    return fixed_text(100.0 * share_of_angles_above(mesh, wide), 1);
+  };
+  return counted(fresh.size(), "edge swapped", "edges swapped") +
+         ", angles above 120°: " + share(before) + " → " + share(after) + " %";
+}
+
+std::string outcome_of_swap(const Document& document) {
+  const Stage& output = document.output("swap_edges");
+  return output.mesh ? swaps_in_words(*stage_before(document, "swap_edges").mesh, *output.mesh)
+                     : std::string();
+}
+
+std::string outcome_of_equilateralize(const Document& document) {
+  return document.step("equilateralize")->out_of_date
+             ? std::string()
+             : swaps_in_words(*stage_before(document, "equilateralize").mesh, *document.mesh);
+}
 
 }  // namespace
 
-const OperationKind simplify_operation{"simplify",       "Simplify",     1,
-                                       resolve_simplify, apply_simplify, words_of_simplify};
-const OperationKind swap_edges_operation{"swap_edges", "Swap edges", 1,
-                                         resolve_swap, apply_swap,   words_of_swap};
-const OperationKind equilateralize_operation{
-    "equilateralize",       "Equilateralise",     1,
-    resolve_equilateralize, apply_equilateralize, words_of_equilateralize};
+std::vector<OperationKind> preparation_rows() {
+  return {
+      {.name = "simplify",
+       .title = "Simplify",
+       .help =
+           "Removes vertices inside error zones, which takes out the noise (section 4.1). Every "
+           "vertex of the scan stays within the zone's radius of the surface. Part of the "
+           "paper's flow; lines by the normal jump do without.",
+       .parameters =
+           {{.name = "error_zone",
+             .kind = ParameterKind::real,
+             .label = "Error zone",
+             .help = "Radius of the sphere round each vertex of the scan that the surface has to "
+                     "meet. The default is three times the noise of the scan.",
+             .unit = unit_of_part,
+             .most = longest_length,
+             .otherwise = {"the noise of the scan: three times it", zone_of_noise},
+             .option = "error-zone"},
+            {.name = "max_edge_length",
+             .kind = ParameterKind::real,
+             .label = "Longest edge",
+             .help = "No new edge becomes longer than this, so that flat areas stay populated; 0: "
+                     "no limit.",
+             .unit = unit_of_part,
+             .most = longest_length,
+             .otherwise = {"the length of the scan's edges", edges_of_scan},
+             .option = "max-edge"},
+            {.name = "cost",
+             .kind = ParameterKind::choice,
+             .help = "How stars are triangulated: the flattest, the least sharp, the least area.",
+             .choices = {{"flat", "Flat"}, {"angle", "Angle"}, {"area", "Area"}},
+             .otherwise = {"whether edges have a limit: area, else angle", affordable_cost},
+             .option = "cost"},
+            {.name = "target_vertices",
+             .kind = ParameterKind::whole,
+             .help = "It stops when so many vertices are left; 0: when no more can go.",
+             .unit = "vertices",
+             .most = 0x7FFFFFFF,
+             .otherwise = 0,
+             .option = "target"},
+            {.name = "again",
+             .kind = ParameterKind::flag,
+             .help = "From the current mesh, as section 4.1 allows later in the chain; found lines "
+                     "stay then.",
+             .otherwise = false}},
+       .apply = apply_simplify,
+       .words = words_of_simplify,
+       .outcome = outcome_of_simplify},
+      {.name = "swap_edges",
+       .title = "Swap edges",
+       .help = "Swaps edges, inside the error zones, so that sharp lines run along edges (section "
+               "4.2).",
+       .apply = apply_swap,
+       .outcome = outcome_of_swap},
+      {.name = "equilateralize",
+       .title = "Equilateralise",
+       .help = "Swaps edges, inside the error zones, so that faces are nearly equilateral (section "
+               "4.3). Sharp lines stay.",
+       .apply = apply_equilateralize,
+       .outcome = outcome_of_equilateralize}};
+}
 
 }  // namespace arris

@@ -5,14 +5,10 @@ namespace arris {
 
 namespace {
 
-// set_unit: {unit: "mm"}; "unknown" takes back what was said, or what a file says wrongly.
-
-Result<nlohmann::json> resolve_set_unit(const Document&, const nlohmann::json& given) {
-  ParameterReader reader("set_unit", given);
-  const std::optional<LengthUnit> unit = find_length_unit(reader.text("unit", ""));
-  if (!unit) reader.fault("unit", length_unit_keys());
-  if (unit) reader.set("unit", info_of(*unit).key);
-  return reader.finish();
+bool accepts_unit(nlohmann::json& value, const Document&) {
+  const std::optional<LengthUnit> unit = find_length_unit(value.get<std::string>());
+  if (unit) value = info_of(*unit).key;
+  return unit.has_value();
 }
 
 Result<Document> apply_set_unit(const Document& document, const nlohmann::json& parameters,
@@ -34,7 +30,19 @@ std::string words_of_set_unit(const nlohmann::json& parameters) {
 
 }  // namespace
 
-const OperationKind set_unit_operation{"set_unit",       "Unit",         1,
-                                       resolve_set_unit, apply_set_unit, words_of_set_unit};
+std::vector<OperationKind> unit_rows() {
+  static const std::string keys = length_unit_keys();
+  return {{.name = "set_unit",
+           .title = "Unit",
+           .help = "Says what lengths of the scan are in; nothing is computed with it.",
+           .parameters = {{.name = "unit",
+                           .kind = ParameterKind::text,
+                           .help = "\"unknown\" takes back what was said, or what a file says "
+                                   "wrongly.",
+                           .form = keys,
+                           .accepts = accepts_unit}},
+           .apply = apply_set_unit,
+           .words = words_of_set_unit}};
+}
 
 }  // namespace arris

@@ -8,12 +8,6 @@ namespace arris {
 
 namespace {
 
-Result<nlohmann::json> resolve_smooth(const Document&, const nlohmann::json& given) {
-  ParameterReader reader("smooth_curvature", given);
-  reader.whole("passes", SmoothCurvatureOptions().passes, 1, 100);
-  return reader.finish();
-}
-
 Result<Document> apply_smooth(const Document& document, const nlohmann::json& parameters,
                               const Context& context) {
   SmoothCurvatureOptions options;
@@ -23,7 +17,7 @@ Result<Document> apply_smooth(const Document& document, const nlohmann::json& pa
   if (!smoothed) return tl::unexpected<Error>(smoothed.error());
   Document result = document;
   result.smoothed = std::move(*smoothed);
-  result.smooth_curvature = Step{parameters, false};
+  result.step("smooth_curvature") = Step{parameters, false};
   outdate_after(result, "smooth_curvature");
   return result;
 }
@@ -33,9 +27,29 @@ std::string words_of_smooth(const nlohmann::json& parameters) {
   return "Smooth curvature, " + counted(parameters.value("passes", 0), "pass", "passes");
 }
 
+std::string outcome_of_smooth(const Document& document) {
+  return counted(document.step("smooth_curvature")->parameters.value("passes", 0), "pass",
+                 "passes");
+}
+
 }  // namespace
 
-const OperationKind smooth_curvature_operation{
-    "smooth_curvature", "Smooth curvature", 1, resolve_smooth, apply_smooth, words_of_smooth};
+std::vector<OperationKind> smooth_curvature_rows() {
+  return {{.name = "smooth_curvature",
+           .title = "Smooth curvature",
+           .help = "Averages curvature over neighbours, never across a line (section 4.4).",
+           .parameters = {{.name = "passes",
+                           .kind = ParameterKind::whole,
+                           .label = "Passes",
+                           .help = "Passes of eq. 20 over the whole part.",
+                           .unit = "passes",
+                           .least = 1,
+                           .most = 100,
+                           .otherwise = SmoothCurvatureOptions().passes,
+                           .option = "smooth"}},
+           .apply = apply_smooth,
+           .words = words_of_smooth,
+           .outcome = outcome_of_smooth}};
+}
 
 }  // namespace arris

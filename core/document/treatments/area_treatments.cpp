@@ -2,13 +2,14 @@
 // none of them is given to the ones beside it (section 7.2).
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/base/words.h"
+#include "core/document/operations/operations.h"
 #include "core/document/treatments/partition_targets.h"
-#include "core/document/treatments/treatments.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/fill_areas.h"
 
@@ -17,8 +18,6 @@ namespace arris {
 namespace {
 
 using nlohmann::json;
-
-// extend_partition: {partitions: [ids], interval: [min, max], areas: mm² that each gained}
 
 /// Beyond this many times the area that a correction was made for it has flooded: under other
 /// thresholds, what once stopped it is gone.
@@ -47,7 +46,7 @@ Result<std::vector<double>> extend_all(Ground& ground, const std::vector<Partiti
   return gained;
 }
 
-/// "partition" and "anchor" as lists of one.
+/// "partition" and "anchor" as lists of one: a single one may be named, too.
 json with_lists(json parameters) {
   for (const auto& [one, many] : {std::pair{"partition", "partitions"}, {"anchor", "anchors"}})
     if (const auto single = parameters.find(one); single != parameters.end()) {
@@ -58,40 +57,52 @@ json with_lists(json parameters) {
   return parameters;
 }
 
-Result<json> resolve_extend(const Document& document, const json& given) {
-  const json complete = with_lists(given);  // a single one may be named, too
-  ParameterReader reader("extend_partition", complete);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  read_partitions(reader, document, "partitions", "anchors", false);
-  const json areas = reader.raw("areas");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
-  const std::vector<std::uint32_t> ids = ids_of(reader.resolved("partitions"));
-  CurvatureInterval own = document.partitions.find(ids[0])->interval;
+Result<json> understood_extend(const Document&, json given) { return with_lists(std::move(given)); }
+
+/// From the smallest to the largest end of theirs.
+json interval_of_partitions(const DefaultFrom& from) {
+  const Partitions& partitions = from.document.partitions;
+  const std::vector<std::uint32_t> ids = ids_of(from.resolved.at("partitions"));
+  CurvatureInterval own = partitions.find(ids[0])->interval;
   for (const std::uint32_t id : ids) {
-    const CurvatureInterval& interval = document.partitions.find(id)->interval;
+    const CurvatureInterval& interval = partitions.find(id)->interval;
     own = {std::min(own.min, interval.min), std::max(own.max, interval.max)};
   }
-  read_interval(reader, "interval", own);
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
-  reader.set("areas", areas);
-  if (!areas.is_null()) {
-    if (!areas.is_array() || areas.size() != ids.size() ||
-        !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); }))
-      reader.fault("areas", "an area for each partition");
-    return reader.finish();
-  }
-  Ground ground = ground_of(document);
-  std::vector<PartitionPtr> partitions;
-  for (const PartitionPtr& partition : document.partitions.partitions)
-    if (std::binary_search(ids.begin(), ids.end(), partition->id)) partitions.push_back(partition);
-  if (const auto gained = extend_all(ground, partitions, interval_of(reader.resolved("interval"))))
-    reader.set("areas", *gained);
-  return reader.finish();
+  return {own.min, std::isfinite(own.max) ? json(own.max) : json()};
 }
 
-Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Parameter areas_parameter(std::string_view help) {
+  return {.name = "areas", .help = help, .derived = true, .form = "an area for each partition"};
+}
+
+/// Those given, or `own` where none are.
+void complete_areas(ParameterReader& reader, const json& own) {
+  const json& areas = reader.given("areas");
+  const bool good =
+      areas.is_array() && areas.size() == reader.resolved("partitions").size() &&
+      std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); });
+  if (!areas.is_null() && !good) reader.fault("areas", form_of(areas_parameter("")));
+  reader.set("areas", areas.is_null() ? own : areas);
+}
+
+void complete_extend(ParameterReader& reader) {
+  json own;
+  if (reader.given("areas").is_null()) {
+    Ground ground = ground_of(reader.document());
+    const std::vector<std::uint32_t> ids = ids_of(reader.resolved("partitions"));
+    std::vector<PartitionPtr> partitions;
+    for (const PartitionPtr& partition : reader.document().partitions.partitions)
+      if (std::binary_search(ids.begin(), ids.end(), partition->id))
+        partitions.push_back(partition);
+    if (const auto gained =
+            extend_all(ground, partitions, interval_of(reader.resolved("interval"))))
+      own = *gained;
+  }
+  complete_areas(reader, own);
+}
+
+Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
   if (partitions.empty()) return fail(outcome.adapted);
   Ground tried = ground;
@@ -122,26 +133,15 @@ std::string words_of_extend(const json& parameters) {
   return of_partition("Extend", parameters) + interval_after_comma(parameters);
 }
 
-// remove_partitions: {partitions: [ids]}
-
-Result<json> resolve_remove(const Document& document, const json& given) {
-  ParameterReader reader("remove_partitions", given);
-  read_partitions(reader, document, "partitions", "anchors", false);
-  const json areas = reader.raw("areas");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+void complete_remove(ParameterReader& reader) {
   json own = json::array();
   for (const std::uint32_t id : ids_of(reader.resolved("partitions")))
-    own.push_back(document.partitions.find(id)->area);
-  if (!areas.is_null() &&
-      (!areas.is_array() || areas.size() != own.size() ||
-       !std::all_of(areas.begin(), areas.end(), [](const json& a) { return a.is_number(); })))
-    reader.fault("areas", "an area for each partition");
-  reader.set("areas", areas.is_null() ? own : areas);
-  return reader.finish();
+    own.push_back(reader.document().partitions.find(id)->area);
+  complete_areas(reader, own);
 }
 
-Result<Outcome> remove(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> remove(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
   FaceLabels labels;
   std::size_t found = 0;
@@ -172,16 +172,14 @@ Result<Outcome> remove(Ground& ground, const json& parameters, Round round) {
 
 std::string words_of_remove(const json& parameters) { return of_partition("Remove", parameters); }
 
-// fill_unassigned: {faces: n}: areas in no partition of at most so many faces go to neighbours
-
 /// Gives the areas that the unassigned among `faces` (ascending) form, up to `most` faces each, to
 /// the partitions they belong to.
-Result<Outcome> fill(Ground& ground, const std::vector<FaceId>& faces, std::size_t most) {
+Result<TreatmentOutcome> fill(Ground& ground, const std::vector<FaceId>& faces, std::size_t most) {
   const FilledAreas filled = fill_areas(ground.partition_ground(), faces, most);
   ground.change(filled.labels);
-  if (filled.enclosed == 0) return Outcome{};
-  return Outcome{counted(filled.enclosed, "area has", "areas have") +
-                 " no partition beside it but over sharp lines, and stays in none."};
+  if (filled.enclosed == 0) return TreatmentOutcome{};
+  return TreatmentOutcome{counted(filled.enclosed, "area has", "areas have") +
+                          " no partition beside it but over sharp lines, and stays in none."};
 }
 
 std::vector<FaceId> unassigned_faces(const Mesh& mesh, const Partitions& partitions) {
@@ -191,15 +189,7 @@ std::vector<FaceId> unassigned_faces(const Mesh& mesh, const Partitions& partiti
   return faces;
 }
 
-Result<json> resolve_fill(const Document& document, const json& given) {
-  ParameterReader reader("fill_unassigned", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  reader.whole("faces", most_faces, 1, most_faces);
-  return reader.finish();
-}
-
-Result<Outcome> fill_unassigned(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> fill_unassigned(Ground& ground, const json& parameters, Round round) {
   const std::vector<FaceId> faces = unassigned_faces(ground.mesh, ground.partitions);
   if (faces.empty() && round == Round::first)
     return nothing_to_do("Every face is in a partition already.");
@@ -213,19 +203,7 @@ std::string words_of_fill(const json& parameters) {
   return what + ", up to " + parameters["faces"].dump() + " faces";
 }
 
-// remove_small_partitions: {faces: n, fill: whether what they covered goes to their neighbours}
-
-Result<json> resolve_remove_small(const Document& document, const json& given) {
-  ParameterReader reader("remove_small_partitions", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  if (!reader.has("faces")) reader.fault("faces", "a number of faces");
-  reader.whole("faces", 1, 1, most_faces);
-  reader.flag("fill", false);
-  return reader.finish();
-}
-
-Result<Outcome> remove_small(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> remove_small(Ground& ground, const json& parameters, Round round) {
   const std::uint32_t least = parameters.at("faces");
   FaceLabels labels;
   for (const PartitionPtr& partition : ground.partitions.partitions)
@@ -242,7 +220,7 @@ Result<Outcome> remove_small(Ground& ground, const json& parameters, Round round
                                : std::string(".")));
   }
   ground.change(labels);
-  if (!parameters.at("fill")) return Outcome{};
+  if (!parameters.at("fill")) return TreatmentOutcome{};
   std::vector<FaceId> freed;
   for (const auto& [f, label] : labels) freed.push_back(f);
   std::sort(freed.begin(), freed.end());
@@ -264,38 +242,73 @@ std::string words_of_remove_small(const json& parameters) {
 
 }  // namespace
 
-const Treatment extend_partition_treatment{"extend_partition", after_partitions, extend};
-const Treatment remove_partitions_treatment{"remove_partitions", after_partitions, remove};
-const Treatment remove_small_partitions_treatment{"remove_small_partitions", after_partitions,
-                                                  remove_small};
-const Treatment fill_unassigned_treatment{"fill_unassigned", after_partitions, fill_unassigned};
-
-const OperationKind extend_partition_operation{"extend_partition",
-                                               "Extend partitions",
-                                               2,
-                                               resolve_extend,
-                                               perform_once<extend_partition_treatment>,
-                                               words_of_extend,
-                                               upgrade_extend};
-const OperationKind remove_partitions_operation{"remove_partitions",
-                                                "Remove partitions",
-                                                1,
-                                                resolve_remove,
-                                                perform_once<remove_partitions_treatment>,
-                                                words_of_remove};
-const OperationKind remove_small_partitions_operation{
-    "remove_small_partitions",
-    "Remove small partitions",
-    2,
-    resolve_remove_small,
-    perform_once<remove_small_partitions_treatment>,
-    words_of_remove_small,
-    upgrade_remove_small};
-const OperationKind fill_unassigned_operation{"fill_unassigned",
-                                              "Fill unassigned areas",
-                                              1,
-                                              resolve_fill,
-                                              perform_once<fill_unassigned_treatment>,
-                                              words_of_fill};
+std::vector<OperationKind> area_treatment_rows() {
+  Parameter interval = interval_parameter();
+  interval.otherwise = {"the intervals of the partitions", interval_of_partitions};
+  constexpr std::string_view leaves = "Larger areas stay in no partition.";
+  return {
+      {.name = "extend_partition",
+       .title = "Extend partitions",
+       .help = "Partitions grow over their undefined boundaries under an interval of their own.",
+       .version = 2,
+       .parameters = {partitions_parameter(), interval,
+                      areas_parameter("What each gained: done again, it may not flood.")},
+       .words = words_of_extend,
+       .ready = needs_partitions,
+       .understood = understood_extend,
+       .complete = complete_extend,
+       .upgrade = upgrade_extend,
+       .treat = extend,
+       .belongs = after_partitions},
+      {.name = "remove_partitions",
+       .title = "Remove partitions",
+       .help = "Their faces are in no partition any more.",
+       .parameters = {partitions_parameter(),
+                      areas_parameter("What each had: one far larger is not the one meant.")},
+       .words = words_of_remove,
+       .complete = complete_remove,
+       .treat = remove,
+       .belongs = after_partitions},
+      {.name = "remove_small_partitions",
+       .title = "Remove small partitions",
+       .help = "Partitions under a number of faces go to their neighbours, or are removed.",
+       .version = 2,
+       .parameters = {{.name = "faces",
+                       .kind = ParameterKind::whole,
+                       .label = "Faces",
+                       .help = "Partitions with fewer faces go.",
+                       .unit = "faces",
+                       .least = 1,
+                       .most = most_faces,
+                       .from = 2.0,
+                       .to = 10000.0,
+                       .logarithmic = true},
+                      {.name = "fill",
+                       .kind = ParameterKind::flag,
+                       .help = "What becomes of the faces they had: their neighbours take them.",
+                       .otherwise = false}},
+       .words = words_of_remove_small,
+       .ready = needs_partitions,
+       .upgrade = upgrade_remove_small,
+       .treat = remove_small,
+       .belongs = after_partitions},
+      {.name = "fill_unassigned",
+       .title = "Fill unassigned areas",
+       .help = "Areas in no partition go to the neighbours they belong to: by curvature, then by "
+               "the longest border.",
+       .parameters = {{.name = "faces",
+                       .kind = ParameterKind::whole,
+                       .label = "Faces",
+                       .help = leaves,
+                       .unit = "faces",
+                       .least = 1,
+                       .most = most_faces,
+                       .otherwise = static_cast<int>(most_faces),
+                       .logarithmic = true}},
+       .words = words_of_fill,
+       .ready = needs_partitions,
+       .treat = fill_unassigned,
+       .belongs = after_partitions}};
+}
 
 }  // namespace arris

@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "core/base/words.h"
-#include "core/document/treatments/treatments.h"
+#include "core/document/operations/operations.h"
+#include "core/document/treatments/treatment.h"
 
 namespace arris {
 
@@ -15,13 +16,12 @@ bool after_lines(const json&, Round round) { return round == Round::after_lines;
 
 /// TV_IH in force; before lines were found, what an engineer calls sharp.
 double angle_in_force(const Document& document) {
-  return document.find_sharp_lines ? document.find_sharp_lines->parameters.value("angle", 30.0)
-                                   : SharpLineOptions().angle;
+  return document.step("find_sharp_lines")
+             ? document.step("find_sharp_lines")->parameters.value("angle", 30.0)
+             : SharpLineOptions().angle;
 }
 
-double read_angle(ParameterReader& reader, const Document& document) {
-  return reader.real("angle", angle_in_force(document), 0.1, 179.9);
-}
+json angle_of_lines(const DefaultFrom& from) { return angle_in_force(from.document); }
 
 std::string of_line(const char* done, const json& parameters) {
   return std::string(done) + " " + targets_in_words(parameters, "line", "lines");
@@ -32,35 +32,17 @@ std::string words_of_trim(const json& parameters) { return of_line("Trim", param
 std::string words_of_split(const json& parameters) { return of_line("Split", parameters); }
 std::string words_of_reroute(const json& parameters) { return of_line("Reroute", parameters); }
 
-// delete_lines: {lines: [ids]}
-
-Result<json> resolve_delete(const Document& document, const json& given) {
-  ParameterReader reader("delete_lines", given);
-  read_lines(reader, document, "lines", "paths", false);
-  reader.raw("spared");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
-  read_spared(reader, document, paths_of(reader.resolved("paths")));
-  return reader.finish();
+void complete_delete(ParameterReader& reader) {
+  complete_spared(reader, paths_of(reader.resolved("paths")));
 }
 
-Result<Outcome> delete_lines(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> delete_lines(Ground& ground, const json& parameters, Round round) {
   remove_paths(ground, paths_of(parameters.at("paths")), parameters.at("spared"), round);
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
-// extend_line: {line: id, angle: degrees, ends: both | first | last, candidates: 3}
-
-Result<json> resolve_extend(const Document& document, const json& given) {
-  ParameterReader reader("extend_line", given);
-  read_lines(reader, document, "line", "path", true);
-  read_angle(reader, document);
-  reader.choice("ends", "both", {"both", "first", "last"});
-  reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
-  return reader.finish();
-}
-
-Result<Outcome> extend(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const Path anchor = path_of(parameters.at("path"));
   const Result<LinePtr> line = find_line(ground, parameters.at("line"), anchor, round, outcome);
   if (!line) return tl::unexpected<Error>(line.error());
@@ -90,81 +72,57 @@ std::string words_of_extend(const json& parameters) {
               : "");
 }
 
-// trim_line: {line: id, vertex: v, side: first | last}: the part on that side of the vertex goes
-
-Result<json> resolve_trim(const Document& document, const json& given) {
-  ParameterReader reader("trim_line", given);
-  read_lines(reader, document, "line", "path", false);
-  const VertexId vertex = read_vertex(reader, document, "vertex");
-  const std::string side = reader.choice("side", "last", {"first", "last"});
-  reader.raw("spared");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+/// The part on that side of the vertex goes.
+void complete_trim(ParameterReader& reader) {
+  const bool first = reader.resolved("side") == "first";
   const Path path = path_of(reader.resolved("path"));
-  const auto place = std::find(path.begin(), path.end(), vertex);
+  const auto place = std::find(path.begin(), path.end(), reader.resolved("vertex").get<VertexId>());
   if (path.front() == path.back() || place == path.end() ||
-      (side == "first" ? place == path.begin() : place + 1 == path.end())) {
-    reader.fault("vertex", "a vertex of the open line, not its end on that side");
-    return reader.finish();
-  }
-  const Path section = side == "first" ? Path(path.begin(), place + 1) : Path(place, path.end());
-  read_spared(reader, document, {section});
-  return reader.finish();
+      (first ? place == path.begin() : place + 1 == path.end()))
+    return reader.fault("vertex", "a vertex of the open line, not its end on that side");
+  complete_spared(reader, {first ? Path(path.begin(), place + 1) : Path(place, path.end())});
 }
 
-Result<Outcome> trim(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> trim(Ground& ground, const json& parameters, Round round) {
   const Path path = path_of(parameters.at("path"));
   const auto place = std::find(path.begin(), path.end(), parameters.at("vertex").get<VertexId>());
   remove_paths(
       ground,
       {parameters.at("side") == "first" ? Path(path.begin(), place + 1) : Path(place, path.end())},
       parameters.at("spared"), round);
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
-// split_line: {line: id, vertex: v}
-
-Result<json> resolve_split(const Document& document, const json& given) {
-  ParameterReader reader("split_line", given);
-  read_lines(reader, document, "line", "path", false);
-  const VertexId vertex = read_vertex(reader, document, "vertex");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+void complete_split(ParameterReader& reader) {
+  const VertexId vertex = reader.resolved("vertex");
   const Path path = path_of(reader.resolved("path"));
   const bool on_line = std::find(path.begin(), path.end(), vertex) != path.end();
   if (!on_line ||
       (path.front() != path.back() && (vertex == path.front() || vertex == path.back())))
     reader.fault("vertex", "a vertex inside the line");
-  return reader.finish();
 }
 
-Result<Outcome> split(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> split(Ground& ground, const json& parameters, Round) {
   const VertexId vertex = parameters.at("vertex");
   if (sharp_edges_at(ground.mesh, ground.lines, vertex).size() != 2)
     return fail("No single line runs through that point, so there is none to split.");
   ground.change(LineChanges{{}, {vertex}});
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
-// merge_lines: {a: id, b: id, angle: degrees}
-
-Result<json> resolve_merge(const Document& document, const json& given) {
-  ParameterReader reader("merge_lines", given);
-  read_lines(reader, document, "a", "path_a", true);
-  read_lines(reader, document, "b", "path_b", true);
-  read_angle(reader, document);
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+void complete_merge(ParameterReader& reader) {
   if (reader.resolved("a") == reader.resolved("b")) reader.fault("b", "another line than \"a\"");
-  return reader.finish();
 }
 
-Result<Outcome> merge(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> merge(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const Result<LinePtr> a =
       find_line(ground, parameters.at("a"), path_of(parameters.at("path_a")), round, outcome);
   if (!a) return tl::unexpected<Error>(a.error());
   const Result<LinePtr> b =
       find_line(ground, parameters.at("b"), path_of(parameters.at("path_b")), round, outcome);
   if (!b) return tl::unexpected<Error>(b.error());
-  if (*a == *b) return Outcome{"They are one line already."};
+  if (*a == *b) return TreatmentOutcome{"They are one line already."};
   const Result<Path> path = bridge_between(ground.mesh, ground.measures(), ground.lines, **a, **b,
                                            parameters.at("angle"));
   if (!path) return tl::unexpected<Error>(path.error());
@@ -177,33 +135,8 @@ std::string words_of_merge(const json& parameters) {
   return "Merge lines " + parameters["a"].dump() + " and " + parameters["b"].dump();
 }
 
-// draw_line: {vertices: [v, ...], or paths: [[v, ...], ...] for several lines, angle: degrees,
-// part: whether partitions that the lines part fall into their pieces at once}
-
-Result<json> resolve_draw(const Document& document, const json& given) {
-  ParameterReader reader("draw_line", given);
-  if (reader.has("vertices") == reader.has("paths")) {
-    reader.fault("vertices", "either the vertices of a line or the paths of several");
-  } else if (reader.has("vertices")) {
-    read_path(reader, document, "vertices", 2);
-  } else {
-    const json paths = reader.raw("paths");
-    if (!paths.is_array() || paths.empty()) reader.fault("paths", "a list of paths");
-    for (std::size_t k = 0; paths.is_array() && k < paths.size(); ++k) {
-      const json one{{"path", paths[k]}};
-      ParameterReader path("draw_line", one);
-      read_path(path, document, "path", 2);
-      if (!path.check()) reader.fault("paths", "paths of two or more vertices of the working mesh");
-    }
-    reader.set("paths", paths);
-  }
-  read_angle(reader, document);
-  reader.flag("part", true);
-  return reader.finish();
-}
-
-Result<Outcome> draw(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> draw(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   std::vector<Path> lines = parameters.contains("paths")
                                 ? paths_of(parameters.at("paths"))
                                 : std::vector<Path>{path_of(parameters.at("vertices"))};
@@ -247,29 +180,16 @@ std::string words_of_draw(const json& parameters) {
              : "Draw a line";
 }
 
-// reroute_line: {line: id, from: v, to: v, via: v}: between `from` and `to` it runs through `via`
-
-Result<json> resolve_reroute(const Document& document, const json& given) {
-  ParameterReader reader("reroute_line", given);
-  read_lines(reader, document, "line", "path", false);
-  const VertexId from = read_vertex(reader, document, "from");
-  const VertexId to = read_vertex(reader, document, "to");
-  read_vertex(reader, document, "via");
-  read_angle(reader, document);
-  reader.raw("spared");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+void complete_reroute(ParameterReader& reader) {
   const Path path = path_of(reader.resolved("path"));
-  const auto a = std::find(path.begin(), path.end(), from);
-  const auto b = std::find(path.begin(), path.end(), to);
-  if (a == path.end() || b == path.end() || a >= b) {
-    reader.fault("from", "vertices of the line, \"from\" before \"to\" along it");
-    return reader.finish();
-  }
-  read_spared(reader, document, {Path(a, b + 1)});
-  return reader.finish();
+  const auto a = std::find(path.begin(), path.end(), reader.resolved("from").get<VertexId>());
+  const auto b = std::find(path.begin(), path.end(), reader.resolved("to").get<VertexId>());
+  if (a == path.end() || b == path.end() || a >= b)
+    return reader.fault("from", "vertices of the line, \"from\" before \"to\" along it");
+  complete_spared(reader, {Path(a, b + 1)});
 }
 
-Result<Outcome> reroute(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> reroute(Ground& ground, const json& parameters, Round round) {
   const Path path = path_of(parameters.at("path"));
   const VertexId from = parameters.at("from"), to = parameters.at("to");
   const auto a = std::find(path.begin(), path.end(), from);
@@ -284,28 +204,10 @@ Result<Outcome> reroute(Ground& ground, const json& parameters, Round round) {
   if (!way) return tl::unexpected<Error>(way.error());
   remove_paths(ground, {Path(a, b + 1)}, parameters.at("spared"), round);
   ground.change(add_path(ground.mesh, ground.lines, *way, Origin::drawn));
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
-// recompute_lines: {lines: [ids] or region, angle, max_angle, convexity, candidates, min_length}
-
-Result<json> resolve_recompute(const Document& document, const json& given) {
-  ParameterReader reader("recompute_lines", given);
-  if (reader.has("lines") == reader.has("region"))
-    reader.fault("lines", "either lines or a region");
-  else if (reader.has("lines"))
-    read_lines(reader, document, "lines", "paths", false);
-  else
-    read_region(reader, document, "region");
-  read_angle(reader, document);
-  read_bounds(reader);
-  reader.whole("candidates", SharpLineOptions().candidates, 1, 32);
-  const double longest = 1000.0 * document.mesh->diagonal();
-  reader.real("min_length", 0.0, 0.0, longest);
-  return reader.finish();
-}
-
-Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round) {
   SharpLineOptions options = line_options_of(parameters);
   if (ground.evidence) {
     options.method = LineMethod::normal_jump;
@@ -324,7 +226,7 @@ Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
   if (vertices.empty()) return fail("No vertex of the region is in the working mesh.");
   ground.change(recompute_region(ground.mesh, ground.measures(), ground.evidence.get(),
                                  ground.lines, vertices, options));
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
 std::string words_of_recompute(const json& parameters) {
@@ -334,42 +236,180 @@ std::string words_of_recompute(const json& parameters) {
   return what + ", " + degrees_in_words(parameters["angle"].get<double>());
 }
 
+// What rows have in common.
+
+Parameter line_parameter(bool may_be_locked) {
+  return {.name = "line",
+          .kind = ParameterKind::line,
+          .help = "The line that is meant.",
+          .may_be_locked = may_be_locked,
+          .anchors = "path"};
+}
+
+Parameter lines_parameter() {
+  return {.name = "lines",
+          .kind = ParameterKind::lines,
+          .help = "The lines that are meant.",
+          .anchors = "paths"};
+}
+
+Parameter vertex_parameter(std::string_view name, std::string_view help) {
+  return {.name = name, .kind = ParameterKind::vertex, .help = help};
+}
+
+Parameter angle_parameter(std::string_view help) {
+  return {.name = "angle",
+          .kind = ParameterKind::real,
+          .label = "Angle",
+          .help = help,
+          .unit = "°",
+          .least = 0.1,
+          .most = 179.9,
+          .otherwise = {"the angle that lines were found with", angle_of_lines},
+          .from = 1.0,
+          .to = 90.0};
+}
+
+constexpr std::string_view edges_follow = "Exterior angle an edge must have.";
+
+OperationKind recompute_lines_row() {
+  Parameter lines = lines_parameter();
+  lines.one_of = "where";
+  std::vector<Parameter> parameters{
+      lines,
+      {.name = "region",
+       .kind = ParameterKind::region,
+       .help = "What was brushed.",
+       .one_of = "where"},
+      angle_parameter(edges_follow),
+  };
+  const std::vector<Parameter> of_edges = kinds_of_edges();
+  parameters.insert(parameters.end(), of_edges.begin(), of_edges.end());
+  parameters.push_back({.name = "min_length",
+                        .kind = ParameterKind::real,
+                        .help = "Isolated lines shorter than this are not kept.",
+                        .unit = unit_of_part,
+                        .most = longest_length,
+                        .otherwise = 0.0});
+  for (Parameter& parameter : parameters) parameter.method = {};  // it has none of its own
+  return {.name = "recompute_lines",
+          .title = "Recompute lines",
+          .help = "Finds lines again, or in a region, under an angle of their own.",
+          .parameters = parameters,
+          .words = words_of_recompute,
+          .treat = recompute,
+          .belongs = after_lines};
+}
+
 }  // namespace
 
-const Treatment delete_lines_treatment{"delete_lines", after_lines, delete_lines};
-const Treatment extend_line_treatment{"extend_line", after_lines, extend};
-const Treatment trim_line_treatment{"trim_line", after_lines, trim};
-const Treatment split_line_treatment{"split_line", after_lines, split};
-const Treatment merge_lines_treatment{"merge_lines", after_lines, merge};
-const Treatment draw_line_treatment{"draw_line", after_lines, draw};
-const Treatment reroute_line_treatment{"reroute_line", after_lines, reroute};
-const Treatment recompute_lines_treatment{"recompute_lines", after_lines, recompute};
-
-const OperationKind delete_lines_operation{
-    "delete_lines", "Delete lines", 1, resolve_delete, perform_once<delete_lines_treatment>,
-    words_of_delete};
-const OperationKind extend_line_operation{
-    "extend_line",  "Extend line", 1, resolve_extend, perform_once<extend_line_treatment>,
-    words_of_extend};
-const OperationKind trim_line_operation{
-    "trim_line", "Trim line", 1, resolve_trim, perform_once<trim_line_treatment>, words_of_trim};
-const OperationKind split_line_operation{
-    "split_line",  "Split line", 1, resolve_split, perform_once<split_line_treatment>,
-    words_of_split};
-const OperationKind merge_lines_operation{
-    "merge_lines", "Merge lines", 1, resolve_merge, perform_once<merge_lines_treatment>,
-    words_of_merge};
-const OperationKind draw_line_operation{
-    "draw_line",   "Draw line", 2, resolve_draw, perform_once<draw_line_treatment>,
-    words_of_draw, upgrade_draw};
-const OperationKind reroute_line_operation{
-    "reroute_line",  "Reroute line", 1, resolve_reroute, perform_once<reroute_line_treatment>,
-    words_of_reroute};
-const OperationKind recompute_lines_operation{"recompute_lines",
-                                              "Recompute lines",
-                                              1,
-                                              resolve_recompute,
-                                              perform_once<recompute_lines_treatment>,
-                                              words_of_recompute};
+std::vector<OperationKind> line_treatment_rows() {
+  return {
+      {.name = "delete_lines",
+       .title = "Delete lines",
+       .help = "Takes lines away; they stay away when lines are found again.",
+       .parameters = {lines_parameter(), spared_parameter()},
+       .words = words_of_delete,
+       .complete = complete_delete,
+       .treat = delete_lines,
+       .belongs = after_lines},
+      {.name = "extend_line",
+       .title = "Extend line",
+       .help = "The ends of a line go on under an angle of their own.",
+       .parameters =
+           {line_parameter(true),
+            angle_parameter(edges_follow),
+            {.name = "ends",
+             .kind = ParameterKind::choice,
+             .label = "Ends",
+             .help = "Which ends of the line go on",
+             .choices = {{"both", "Both ends"}, {"first", "First end"}, {"last", "Last end"}},
+             .otherwise = "both"},
+            {.name = "candidates",
+             .kind = ParameterKind::whole,
+             .help = "Edges kept at a vertex by the candidate rule (figure 26).",
+             .least = 1,
+             .most = 32,
+             .otherwise = SharpLineOptions().candidates}},
+       .words = words_of_extend,
+       .treat = extend,
+       .belongs = after_lines},
+      {.name = "trim_line",
+       .title = "Trim line",
+       .help = "Takes away the part of a line beyond a vertex.",
+       .parameters = {line_parameter(false),
+                      vertex_parameter("vertex", "Where it is cut, on the line."),
+                      {.name = "side",
+                       .kind = ParameterKind::choice,
+                       .help = "Which part goes, by the direction of the line.",
+                       .choices = {{"first", "First side"}, {"last", "Last side"}},
+                       .otherwise = "last"},
+                      spared_parameter()},
+       .words = words_of_trim,
+       .complete = complete_trim,
+       .treat = trim,
+       .belongs = after_lines},
+      {.name = "split_line",
+       .title = "Split line",
+       .help = "Makes two lines of one at a vertex.",
+       .parameters = {line_parameter(false),
+                      vertex_parameter("vertex", "Where it is split, inside the line.")},
+       .words = words_of_split,
+       .complete = complete_split,
+       .treat = split,
+       .belongs = after_lines},
+      {.name = "merge_lines",
+       .title = "Merge lines",
+       .help = "Joins two lines over the gap between them.",
+       .parameters = {{.name = "a",
+                       .kind = ParameterKind::line,
+                       .help = "The one line.",
+                       .may_be_locked = true,
+                       .anchors = "path_a"},
+                      {.name = "b",
+                       .kind = ParameterKind::line,
+                       .help = "The other line.",
+                       .may_be_locked = true,
+                       .anchors = "path_b"},
+                      angle_parameter("What counts as sharp for the way between them.")},
+       .words = words_of_merge,
+       .complete = complete_merge,
+       .treat = merge,
+       .belongs = after_lines},
+      {.name = "draw_line",
+       .title = "Draw line",
+       .help = "Draws a line, or several, through vertices; it runs along sharp edges.",
+       .version = 2,
+       .parameters = {{.name = "vertices",
+                       .kind = ParameterKind::path,
+                       .help = "The points of one line.",
+                       .count = 2,
+                       .one_of = "points"},
+                      {.name = "paths",
+                       .kind = ParameterKind::paths,
+                       .help = "Those of several.",
+                       .one_of = "points"},
+                      angle_parameter("What counts as sharp for the way between points."),
+                      {.name = "part",
+                       .kind = ParameterKind::flag,
+                       .help = "Partitions that it parts fall into their pieces at once.",
+                       .otherwise = true}},
+       .words = words_of_draw,
+       .upgrade = upgrade_draw,
+       .treat = draw,
+       .belongs = after_lines},
+      {.name = "reroute_line",
+       .title = "Reroute line",
+       .help = "Between two of its vertices the line runs through a third.",
+       .parameters = {line_parameter(false), vertex_parameter("from", "Where it leaves its way."),
+                      vertex_parameter("to", "Where it is back on it."),
+                      vertex_parameter("via", "Where it is to run."),
+                      angle_parameter("What counts as sharp for the new way."), spared_parameter()},
+       .words = words_of_reroute,
+       .complete = complete_reroute,
+       .treat = reroute,
+       .belongs = after_lines},
+      recompute_lines_row()};
+}
 
 }  // namespace arris

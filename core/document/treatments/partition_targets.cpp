@@ -7,7 +7,7 @@ namespace arris {
 using nlohmann::json;
 
 std::vector<PartitionPtr> find_all(const Ground& ground, const json& parameters, Round round,
-                                   Outcome& outcome) {
+                                   TreatmentOutcome& outcome) {
   std::vector<PartitionPtr> found;
   const std::vector<std::uint32_t> ids = ids_of(parameters.at("partitions"));
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -22,7 +22,7 @@ std::vector<PartitionPtr> find_all(const Ground& ground, const json& parameters,
 }
 
 Result<PartitionPtr> find_one(const Ground& ground, const json& parameters, Round round,
-                              Outcome& outcome) {
+                              TreatmentOutcome& outcome) {
   return find_partition(ground, parameters.at("partition"), parameters.at("anchor").get<Triangle>(),
                         round, outcome);
 }
@@ -31,6 +31,37 @@ FaceLabels labelled(const std::vector<FaceId>& faces, std::uint32_t label) {
   FaceLabels labels;
   for (const FaceId f : faces) labels.emplace_back(f, label);
   return labels;
+}
+
+Parameter partitions_parameter() {
+  return {.name = "partitions",
+          .kind = ParameterKind::partitions,
+          .help = "The partitions that are meant.",
+          .anchors = "anchors"};
+}
+
+Parameter partition_parameter() {
+  return {.name = "partition",
+          .kind = ParameterKind::partition,
+          .help = "The partition that is meant.",
+          .anchors = "anchor"};
+}
+
+Parameter interval_parameter() {
+  return {.name = "interval",
+          .kind = ParameterKind::interval,
+          .label = "Kmax",
+          .help = "The largest value of the criterion."};
+}
+
+Parameter min_faces_parameter() {
+  return {.name = "min_faces",
+          .kind = ParameterKind::whole,
+          .help = "Smaller partitions are not kept.",
+          .unit = "faces",
+          .least = 1,
+          .most = most_faces,
+          .otherwise = 1};
 }
 
 Result<void> needs_partitions(const Document& document) {

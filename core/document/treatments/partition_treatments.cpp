@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "core/base/words.h"
+#include "core/document/operations/operations.h"
 #include "core/document/treatments/partition_targets.h"
-#include "core/document/treatments/treatments.h"
 #include "core/partitions/four_sided_cuts.h"
 
 namespace arris {
@@ -46,24 +46,14 @@ void find_again(Ground& ground, const std::vector<FaceId>& faces, const Curvatur
   ground.change(labels, fresh);
 }
 
-// connect_partitions: {partitions: [ids], lines: keep | remove}
-
-Result<json> resolve_connect(const Document& document, const json& given) {
-  ParameterReader reader("connect_partitions", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  read_partitions(reader, document, "partitions", "anchors", false);
-  const std::string lines = reader.choice("lines", "keep", {"keep", "remove"});
-  const json removed = reader.raw("removed");
-  reader.raw("spared");
-  if (const auto checked = reader.check(); !checked) return tl::unexpected<Error>(checked.error());
+void complete_connect(ParameterReader& reader) {
+  const Document& document = reader.document();
   const std::vector<std::uint32_t> ids = ids_of(reader.resolved("partitions"));
-  if (ids.size() < 2) reader.fault("partitions", "two partitions at least");
-  std::vector<Path> paths;
   const auto meant = [&](std::uint32_t id) {
     return std::binary_search(ids.begin(), ids.end(), id);
   };
-  if (lines == "remove")
+  std::vector<Path> paths;
+  if (reader.resolved("lines") == "remove")
     for (const BoundaryPtr& boundary : *document.boundaries)
       if (boundary->type == BoundaryType::c0 && boundary->left != boundary->right &&
           meant(boundary->left) && meant(boundary->right)) {
@@ -71,15 +61,15 @@ Result<json> resolve_connect(const Document& document, const json& given) {
           reader.fault("lines", "\"keep\": line " + std::to_string(boundary->line) + " is locked");
         paths.push_back(boundary->vertices);
       }
+  const json& removed = reader.given("removed");
   if (!removed.is_null() && removed != json(paths))
     reader.fault("removed", "the paths of the sharp lines between the partitions");
   reader.set("removed", paths);
-  read_spared(reader, document, paths);
-  return reader.finish();
+  complete_spared(reader, paths);
 }
 
-Result<Outcome> connect(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> connect(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const bool removes = parameters.at("lines") == "remove";
   if (round == Round::after_lines) {
     remove_paths(ground, paths_of(parameters.at("removed")), parameters.at("spared"), round);
@@ -88,9 +78,9 @@ Result<Outcome> connect(Ground& ground, const json& parameters, Round round) {
   const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
   if (partitions.size() < 2)
     return round == Round::first || !outcome.adapted.empty()
-               ? Result<Outcome>(
+               ? Result<TreatmentOutcome>(
                      fail("Two partitions are needed to connect them. " + outcome.adapted))
-               : Result<Outcome>(Outcome{"They are one partition already."});
+               : Result<TreatmentOutcome>(TreatmentOutcome{"They are one partition already."});
   // Which of them have a boundary in common.
   std::vector<std::size_t> group(partitions.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
@@ -130,21 +120,8 @@ bool connect_belongs(const json& parameters, Round round) {
          (round == Round::after_lines && parameters.at("lines") == "remove");
 }
 
-// restart_partitions: {partitions: [ids], interval, min_faces}: and the unassigned round them
-
-Result<json> resolve_restart(const Document& document, const json& given) {
-  ParameterReader reader("restart_partitions", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  read_partitions(reader, document, "partitions", "anchors", false);
-  if (!reader.has("interval")) reader.fault("interval", "an interval [min, max]");
-  read_interval(reader, "interval", {});
-  reader.whole("min_faces", 1, 1, most_faces);
-  return reader.finish();
-}
-
-Result<Outcome> restart(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> restart(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
   if (partitions.empty()) return fail(outcome.adapted);
   std::vector<FaceId> faces;
@@ -157,17 +134,6 @@ Result<Outcome> restart(Ground& ground, const json& parameters, Round round) {
   ground.change(labelled(faces, 0));
   find_again(ground, area, interval_of(parameters.at("interval")), parameters.at("min_faces"));
   return outcome;
-}
-
-// recompute_partitions: {region, interval, min_faces}
-
-Result<json> resolve_recompute(const Document& document, const json& given) {
-  ParameterReader reader("recompute_partitions", given);
-  read_region(reader, document, "region");
-  if (!reader.has("interval")) reader.fault("interval", "an interval [min, max]");
-  read_interval(reader, "interval", {});
-  reader.whole("min_faces", 1, 1, most_faces);
-  return reader.finish();
 }
 
 /// Faces of a region but for those of locked partitions.
@@ -187,27 +153,17 @@ std::vector<FaceId> open_faces(const Ground& ground, const BrushedRegion& region
   return faces;
 }
 
-Result<Outcome> recompute(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round) {
   const std::vector<FaceId> faces = open_faces(ground, region_of(parameters.at("region")), nullptr);
   if (faces.empty())
     return fail("There is no face in the region that is not locked: brush a wider one.");
   ground.change(labelled(faces, 0));
   find_again(ground, faces, interval_of(parameters.at("interval")), parameters.at("min_faces"));
-  return Outcome{};
+  return TreatmentOutcome{};
 }
 
-// split_partition: {partition: id, vertices: [v, ...], angle}
-
-Result<json> resolve_split(const Document& document, const json& given) {
-  ParameterReader reader("split_partition", given);
-  read_partitions(reader, document, "partition", "anchor", false);
-  read_path(reader, document, "vertices", 2);
-  reader.real("angle", SharpLineOptions().angle, 0.1, 179.9);
-  return reader.finish();
-}
-
-Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> split(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
   if (!partition) return tl::unexpected<Error>(partition.error());
   const auto is_inside = [&](EdgeId e) {
@@ -243,36 +199,28 @@ Result<Outcome> split(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
-// split_to_four_sides: {partitions: [ids], all that have more, or holes, where left out;
-// neighbours: whether partitions that get a fifth side by the cuts beside them are cut, too}
-
 /// Whether there may be a cut for it at all.
 bool wants_cuts(const Partition& partition, const Outline& outline) {
   return !partition.locked && !outline.loops.empty() && outline.handles == 0 &&
          !outline.is_four_sided();
 }
 
-Result<json> resolve_four_sides(const Document& document, const json& given) {
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  json with_list = given;
-  if (!with_list.contains("partitions")) {
-    std::vector<std::uint32_t> ids;
-    const std::vector<Outline> outlines =
-        outlines_of(*document.mesh, document.lines, document.partitions);
-    for (std::size_t k = 0; k < outlines.size(); ++k)
-      if (const Partition& partition = *document.partitions.partitions[k];
-          wants_cuts(partition, outlines[k]))
-        ids.push_back(partition.id);
-    if (ids.empty())
-      return nothing_to_do(
-          "Every partition that is not locked has at most four sides: nothing to cut.");
-    with_list["partitions"] = ids;
-  }
-  ParameterReader reader("split_to_four_sides", with_list);
-  read_partitions(reader, document, "partitions", "anchors", false);
-  reader.flag("neighbours", !given.contains("partitions"));
-  return reader.finish();
+/// All that have more sides, or holes, where none are named.
+Result<json> understood_four_sides(const Document& document, json given) {
+  if (given.contains("partitions")) return given;
+  std::vector<std::uint32_t> ids;
+  const std::vector<Outline> outlines =
+      outlines_of(*document.mesh, document.lines, document.partitions);
+  for (std::size_t k = 0; k < outlines.size(); ++k)
+    if (const Partition& partition = *document.partitions.partitions[k];
+        wants_cuts(partition, outlines[k]))
+      ids.push_back(partition.id);
+  if (ids.empty())
+    return nothing_to_do(
+        "Every partition that is not locked has at most four sides: nothing to cut.");
+  given["partitions"] = ids;
+  if (!given.contains("neighbours")) given["neighbours"] = true;
+  return given;
 }
 
 /// What cutting one partition made of it.
@@ -321,8 +269,8 @@ std::set<std::uint32_t> to_cut_at(const Ground& ground, const std::vector<Vertex
   return ids;
 }
 
-Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> split_to_four_sides(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   std::set<std::uint32_t> ids;
   const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
   for (const PartitionPtr& partition : partitions)
@@ -386,27 +334,8 @@ Result<Outcome> split_to_four_sides(Ground& ground, const json& parameters, Roun
   return outcome;
 }
 
-// paint_partition: {partition: id (0: into none), region}
-
-Result<json> resolve_paint(const Document& document, const json& given) {
-  ParameterReader reader("paint_partition", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  const json id = given.contains("partition") ? given["partition"] : json();
-  if (id == 0u) {
-    reader.raw("partition");
-    reader.raw("anchor");
-    reader.set("partition", 0u);
-    reader.set("anchor", Triangle{});
-  } else {
-    read_partitions(reader, document, "partition", "anchor", false);
-  }
-  read_region(reader, document, "region");
-  return reader.finish();
-}
-
-Result<Outcome> paint(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> paint(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   std::uint32_t label = 0;
   if (parameters.at("partition") != 0u) {
     const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
@@ -430,22 +359,8 @@ std::string words_of_paint(const json& parameters) {
                                        : of_partition("Paint into", parameters);
 }
 
-// smooth_boundaries: {partitions: [ids], all where empty; rounds}
-
-Result<json> resolve_smooth(const Document& document, const json& given) {
-  ParameterReader reader("smooth_boundaries", given);
-  if (const auto found = needs_partitions(document); !found)
-    return tl::unexpected<Error>(found.error());
-  json with_list = given;
-  if (!with_list.contains("partitions")) with_list["partitions"] = json::array();
-  ParameterReader complete("smooth_boundaries", with_list);
-  read_partitions(complete, document, "partitions", "anchors", true, true);
-  complete.whole("rounds", 10, 1, 1000);
-  return complete.finish();
-}
-
-Result<Outcome> smooth(Ground& ground, const json& parameters, Round round) {
-  Outcome outcome;
+Result<TreatmentOutcome> smooth(Ground& ground, const json& parameters, Round round) {
+  TreatmentOutcome outcome;
   std::unordered_set<std::uint32_t> ids;
   for (const PartitionPtr& partition : find_all(ground, parameters, round, outcome))
     ids.insert(partition->id);
@@ -455,52 +370,116 @@ Result<Outcome> smooth(Ground& ground, const json& parameters, Round round) {
   return outcome;
 }
 
+Parameter region_parameter() {
+  return {.name = "region", .kind = ParameterKind::region, .help = "What was brushed."};
+}
+
 }  // namespace
 
-const Treatment connect_partitions_treatment{"connect_partitions", connect_belongs, connect};
-const Treatment restart_partitions_treatment{"restart_partitions", after_partitions, restart};
-const Treatment recompute_partitions_treatment{"recompute_partitions", after_partitions, recompute};
-const Treatment split_partition_treatment{"split_partition", after_partitions, split};
-const Treatment split_to_four_sides_treatment{"split_to_four_sides", after_partitions,
-                                              split_to_four_sides};
-const Treatment paint_partition_treatment{"paint_partition", after_partitions, paint};
-const Treatment smooth_boundaries_treatment{"smooth_boundaries", after_partitions, smooth};
-
-const OperationKind connect_partitions_operation{"connect_partitions",
-                                                 "Connect partitions",
-                                                 1,
-                                                 resolve_connect,
-                                                 perform_once<connect_partitions_treatment>,
-                                                 words_of_connect};
-const OperationKind restart_partitions_operation{"restart_partitions",
-                                                 "Restart partitions",
-                                                 1,
-                                                 resolve_restart,
-                                                 perform_once<restart_partitions_treatment>,
-                                                 words_of_restart};
-const OperationKind recompute_partitions_operation{"recompute_partitions",
-                                                   "Recompute partitions",
-                                                   1,
-                                                   resolve_recompute,
-                                                   perform_once<recompute_partitions_treatment>,
-                                                   words_of_recompute};
-const OperationKind split_partition_operation{
-    "split_partition", "Split partition", 1, resolve_split, perform_once<split_partition_treatment>,
-    words_of_split};
-const OperationKind split_to_four_sides_operation{"split_to_four_sides",
-                                                  "Split to four sides",
-                                                  1,
-                                                  resolve_four_sides,
-                                                  perform_once<split_to_four_sides_treatment>,
-                                                  words_of_four_sides};
-const OperationKind paint_partition_operation{
-    "paint_partition", "Paint partition", 1, resolve_paint, perform_once<paint_partition_treatment>,
-    words_of_paint};
-const OperationKind smooth_boundaries_operation{"smooth_boundaries",
-                                                "Smooth boundaries",
-                                                1,
-                                                resolve_smooth,
-                                                perform_once<smooth_boundaries_treatment>,
-                                                words_of_smooth};
+std::vector<OperationKind> partition_treatment_rows() {
+  Parameter several = partitions_parameter();
+  several.count = 2;
+  Parameter into = partition_parameter();
+  into.help = "The partition that they join; 0: they are in none any more.";
+  into.or_none = true;
+  return {
+      {.name = "connect_partitions",
+       .title = "Connect partitions",
+       .help = "Makes one of adjacent partitions.",
+       .parameters = {several,
+                      {.name = "lines",
+                       .kind = ParameterKind::choice,
+                       .label = "Lines",
+                       .help = "What becomes of the sharp lines between the partitions",
+                       .choices = {{"keep", "Sharp line between them stays"},
+                                   {"remove", "Sharp line between them goes"}},
+                       .otherwise = "keep"},
+                      {.name = "removed",
+                       .help = "The paths of the lines that go.",
+                       .derived = true,
+                       .form = "the paths of the sharp lines between the partitions"},
+                      spared_parameter()},
+       .words = words_of_connect,
+       .ready = needs_partitions,
+       .complete = complete_connect,
+       .treat = connect,
+       .belongs = connect_belongs},
+      {.name = "restart_partitions",
+       .title = "Restart partitions",
+       .help = "Finds partitions, and what is unassigned round them, under another interval.",
+       .parameters = {partitions_parameter(), interval_parameter(), min_faces_parameter()},
+       .words = words_of_restart,
+       .ready = needs_partitions,
+       .treat = restart,
+       .belongs = after_partitions},
+      {.name = "recompute_partitions",
+       .title = "Recompute partitions",
+       .help = "Finds partitions again in a region, under an interval of their own.",
+       .parameters = {region_parameter(), interval_parameter(), min_faces_parameter()},
+       .words = words_of_recompute,
+       .treat = recompute,
+       .belongs = after_partitions},
+      {.name = "split_partition",
+       .title = "Split partition",
+       .help = "Parts a partition along a path through vertices.",
+       .parameters = {partition_parameter(),
+                      {.name = "vertices",
+                       .kind = ParameterKind::path,
+                       .help = "From one boundary of the partition to another.",
+                       .count = 2},
+                      {.name = "angle",
+                       .kind = ParameterKind::real,
+                       .help = "What counts as sharp for the way between points.",
+                       .unit = "°",
+                       .least = 0.1,
+                       .most = 179.9,
+                       .otherwise = SharpLineOptions().angle}},
+       .words = words_of_split,
+       .treat = split,
+       .belongs = after_partitions},
+      {.name = "split_to_four_sides",
+       .title = "Split to four sides",
+       .help = "Cuts partitions so that none has more than four sides or a hole; all that have "
+               "where none are named.",
+       .parameters = {partitions_parameter(),
+                      {.name = "neighbours",
+                       .kind = ParameterKind::flag,
+                       .help = "Partitions that get a fifth side by the cuts beside them are cut, "
+                               "too; true where none are named.",
+                       .otherwise = false}},
+       .words = words_of_four_sides,
+       .ready = needs_partitions,
+       .understood = understood_four_sides,
+       .treat = split_to_four_sides,
+       .belongs = after_partitions},
+      {.name = "paint_partition",
+       .title = "Paint partition",
+       .help = "Brushed faces join a partition, or leave theirs; the brush stops at sharp lines.",
+       .parameters = {into, region_parameter()},
+       .words = words_of_paint,
+       .ready = needs_partitions,
+       .treat = paint,
+       .belongs = after_partitions},
+      {.name = "smooth_boundaries",
+       .title = "Smooth boundaries",
+       .help = "Takes the teeth off the boundaries of partitions, or of all.",
+       .parameters = {{.name = "partitions",
+                       .kind = ParameterKind::partitions,
+                       .help = "The partitions that are meant; none: all.",
+                       .count = 0,
+                       .otherwise = Default::empty_list(),
+                       .may_be_locked = true,
+                       .anchors = "anchors"},
+                      {.name = "rounds",
+                       .kind = ParameterKind::whole,
+                       .help = "How often each border is gone over.",
+                       .least = 1,
+                       .most = 1000,
+                       .otherwise = 10}},
+       .words = words_of_smooth,
+       .ready = needs_partitions,
+       .treat = smooth,
+       .belongs = after_partitions}};
+}
 
 }  // namespace arris

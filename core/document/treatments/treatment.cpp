@@ -7,7 +7,6 @@
 #include <unordered_set>
 
 #include "core/base/words.h"
-#include "core/document/treatments/treatments.h"
 #include "core/sharp_lines/sharp_lines.h"
 
 namespace arris {
@@ -18,32 +17,6 @@ std::vector<EdgeId> edges_on(const Mesh& mesh, const Path& path) {
   std::vector<EdgeId> edges;
   for (const HalfEdgeId h : half_edges_of(mesh, path)) edges.push_back(h >> 1);
   return edges;
-}
-
-bool is_list_of_vertices(const nlohmann::json& json) {
-  return json.is_array() && std::all_of(json.begin(), json.end(), [](const auto& v) {
-           return v.is_number_unsigned() && v.template get<std::uint64_t>() < no_id;
-         });
-}
-
-/// Reads ids: one number under a singular name, a list under a plural one.
-std::vector<std::uint32_t> read_ids(ParameterReader& reader, const std::string& name) {
-  const nlohmann::json given = reader.raw(name);
-  const bool is_list = name.back() == 's';
-  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
-  if (!is_list_of_vertices(list)) {
-    reader.fault(name, is_list ? "a list of ids" : "an id");
-    return {};
-  }
-  std::vector<std::uint32_t> ids = list;
-  if (is_list) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    reader.set(name, ids);
-  } else {
-    reader.set(name, given);
-  }
-  return ids;
 }
 
 }  // namespace
@@ -112,18 +85,11 @@ Ground ground_of(const Document& document) {
   return ground;
 }
 
-const Treatment* find_treatment(std::string_view operation) {
-  for (const Treatment* treatment : all_treatments())
-    if (treatment->name == operation) return treatment;
-  return nullptr;
-}
-
-Result<Document> apply_treatment(std::string_view name, const Document& document,
+Result<Document> apply_treatment(const OperationKind& treatment, const Document& document,
                                  const nlohmann::json& parameters, const Context& context) {
-  const Treatment& treatment = *find_treatment(name);
   Ground ground = ground_of(document);
   ground.context = context;
-  const Result<Outcome> done = treatment.perform(ground, parameters, Round::first);
+  const Result<TreatmentOutcome> done = treatment.treat(ground, parameters, Round::first);
   if (!done) return tl::unexpected<Error>(done.error());
   Document result = document;
   result.lines = std::move(ground.lines);
@@ -131,13 +97,13 @@ Result<Document> apply_treatment(std::string_view name, const Document& document
   result.boundaries = std::make_shared<const Boundaries>(std::move(ground.boundaries));
   result.next_id = ground.next_id;
   result.corrections.push_back(std::make_shared<const Correction>(
-      result.next_id++, Operation{std::string(name), parameters},
+      result.next_id++, Operation{std::string(treatment.name), parameters},
       done->adapted.empty() ? CorrectionState::applied : CorrectionState::adapted, done->adapted));
   if (!treatment.belongs(parameters, Round::after_lines)) return result;
-  if (result.smooth_curvature) result.smooth_curvature->out_of_date = true;
+  if (result.step("smooth_curvature")) result.step("smooth_curvature")->out_of_date = true;
   // Lines that parted the partitions beside them at once leave them as they are to be.
-  if (result.find_partitions && !parameters.value("part", false))
-    result.find_partitions->out_of_date = true;
+  if (result.step("find_partitions") && !parameters.value("part", false))
+    result.step("find_partitions")->out_of_date = true;
   return result;
 }
 
@@ -145,7 +111,7 @@ std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections
                                    Round round, bool switched_on) {
   std::vector<CorrectionPtr> result;
   for (const CorrectionPtr& correction : corrections) {
-    const Treatment& treatment = *find_treatment(correction->operation.name);
+    const OperationKind& treatment = *find_operation(correction->operation.name);
     if (!treatment.belongs(correction->operation.parameters, round)) {
       result.push_back(correction);
       continue;
@@ -153,8 +119,8 @@ std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections
     CorrectionState state = CorrectionState::off;
     std::string message;
     if (switched_on) {
-      const Result<Outcome> done =
-          treatment.perform(ground, correction->operation.parameters, round);
+      const Result<TreatmentOutcome> done =
+          treatment.treat(ground, correction->operation.parameters, round);
       state = !done                   ? CorrectionState::failed
               : done->adapted.empty() ? CorrectionState::applied
                                       : CorrectionState::adapted;
@@ -194,7 +160,7 @@ Result<void> refind_lines(Document& document, const std::optional<nlohmann::json
 
   const bool corrected =
       std::any_of(document.corrections.begin(), document.corrections.end(), [](const auto& c) {
-        return find_treatment(c->operation.name)
+        return find_operation(c->operation.name)
             ->belongs(c->operation.parameters, Round::after_lines);
       });
   SharpLines previous = document.lines;
@@ -266,7 +232,7 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
   }
   const bool corrected =
       std::any_of(document.corrections.begin(), document.corrections.end(), [](const auto& c) {
-        return find_treatment(c->operation.name)
+        return find_operation(c->operation.name)
             ->belongs(c->operation.parameters, Round::after_partitions);
       });
   if (corrected) {
@@ -310,130 +276,6 @@ SharpLineOptions line_options_of(const nlohmann::json& parameters) {
   return options;
 }
 
-void read_bounds(ParameterReader& reader) {
-  reader.real("max_angle", SharpLineOptions().max_angle, 0.1, 180.0);
-  reader.choice("convexity", "any", {"any", "convex", "concave"});
-}
-
-void read_lines(ParameterReader& reader, const Document& document, const std::string& name,
-                const std::string& anchors, bool may_be_locked) {
-  const std::vector<std::uint32_t> ids = read_ids(reader, name);
-  const nlohmann::json given = reader.raw(anchors);
-  const bool is_list = name.back() == 's';
-  if (is_list && ids.empty()) reader.fault(name, "a line at least");
-  nlohmann::json paths = nlohmann::json::array();
-  for (const std::uint32_t id : ids) {
-    const Line* line = document.lines.find(id);
-    if (!line) {
-      reader.fault(name, "ids of lines; there is no line " + std::to_string(id));
-      return;
-    }
-    if (line->locked && !may_be_locked) {
-      reader.fault(name, "lines that are not locked; unlock line " + std::to_string(id) + " first");
-      return;
-    }
-    paths.push_back(line->vertices);
-  }
-  if (given.is_null()) {
-    reader.set(anchors, is_list ? paths : paths[0]);
-    return;
-  }
-  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
-  if (!list.is_array() || list.size() != ids.size() ||
-      !std::all_of(list.begin(), list.end(),
-                   [](const auto& p) { return is_list_of_vertices(p) && p.size() >= 2; }))
-    reader.fault(anchors, "a path of vertices for each line");
-  reader.set(anchors, given);
-}
-
-void read_partitions(ParameterReader& reader, const Document& document, const std::string& name,
-                     const std::string& anchors, bool may_be_locked, bool may_be_empty) {
-  const std::vector<std::uint32_t> ids = read_ids(reader, name);
-  const nlohmann::json given = reader.raw(anchors);
-  const bool is_list = name.back() == 's';
-  if (is_list && ids.empty() && !may_be_empty) reader.fault(name, "a partition at least");
-  nlohmann::json faces = nlohmann::json::array();
-  for (const std::uint32_t id : ids) {
-    const Partition* partition = document.partitions.find(id);
-    if (!partition) {
-      reader.fault(name, "ids of partitions; there is no partition " + std::to_string(id));
-      return;
-    }
-    if (partition->locked && !may_be_locked) {
-      reader.fault(name, "partitions that are not locked; unlock partition " + std::to_string(id) +
-                             " first");
-      return;
-    }
-    faces.push_back(partition->anchor);
-  }
-  if (given.is_null()) {
-    reader.set(anchors, is_list || faces.empty() ? faces : faces[0]);
-    return;
-  }
-  const nlohmann::json list = is_list ? given : nlohmann::json::array({given});
-  if (!list.is_array() || list.size() != ids.size() ||
-      !std::all_of(list.begin(), list.end(),
-                   [](const auto& t) { return is_list_of_vertices(t) && t.size() == 3; }))
-    reader.fault(anchors, "a face [a, b, c] for each partition");
-  reader.set(anchors, given);
-}
-
-Path read_path(ParameterReader& reader, const Document& document, const std::string& name,
-               std::size_t least) {
-  const nlohmann::json given = reader.raw(name);
-  const Mesh& mesh = *document.mesh;
-  if (!is_list_of_vertices(given) || given.size() < least ||
-      !std::all_of(given.begin(), given.end(), [&](const auto& v) {
-        const VertexId vertex = v;
-        return vertex < mesh.vertex_count() && !mesh.is_isolated(vertex);
-      })) {
-    reader.fault(name,
-                 "a list of " + std::to_string(least) + " or more vertices of the working mesh");
-    return {};
-  }
-  reader.set(name, given);
-  return path_of(given);
-}
-
-VertexId read_vertex(ParameterReader& reader, const Document& document, const std::string& name) {
-  const Mesh& mesh = *document.mesh;
-  const nlohmann::json given = reader.raw(name);
-  if (!given.is_number_unsigned() || given.get<std::uint64_t>() >= mesh.vertex_count() ||
-      mesh.is_isolated(given)) {
-    reader.fault(name, "a vertex of the working mesh");
-    return no_id;
-  }
-  reader.set(name, given);
-  return given;
-}
-
-void read_region(ParameterReader& reader, const Document& document, const std::string& name) {
-  const nlohmann::json given = reader.raw(name);
-  const double longest = 1000.0 * document.mesh->diagonal();
-  if (!given.is_object() || given.size() != 2 || !given.contains("vertices") ||
-      !given.contains("radius") || !is_list_of_vertices(given["vertices"]) ||
-      given["vertices"].empty() || !given["radius"].is_number() ||
-      !(given["radius"].get<double>() >= 0.0) || given["radius"].get<double>() > longest)
-    reader.fault(name, "a region {\"vertices\": [...], \"radius\": length}");
-  reader.set(name, given);
-}
-
-void read_interval(ParameterReader& reader, const std::string& name,
-                   const CurvatureInterval& otherwise) {
-  const nlohmann::json given = reader.raw(name);
-  if (given.is_null()) {
-    reader.set(name, {otherwise.min, std::isfinite(otherwise.max) ? nlohmann::json(otherwise.max)
-                                                                  : nlohmann::json()});
-    return;
-  }
-  if (!given.is_array() || given.size() != 2 || !given[0].is_number() ||
-      !(given[1].is_number() || given[1].is_null()) || !std::isfinite(given[0].get<double>()) ||
-      given[0].get<double>() < 0.0 ||
-      !(given[1].is_null() || given[1].get<double>() > given[0].get<double>()))
-    reader.fault(name, "an interval [min, max] with 0 <= min < max");
-  reader.set(name, given);
-}
-
 Path path_of(const nlohmann::json& json) { return json.get<Path>(); }
 std::vector<Path> paths_of(const nlohmann::json& json) { return json.get<std::vector<Path>>(); }
 std::vector<std::uint32_t> ids_of(const nlohmann::json& json) {
@@ -450,7 +292,10 @@ std::string targets_in_words(const nlohmann::json& parameters, const std::string
   if (const auto id = parameters.find(one); id != parameters.end() && id->is_number_unsigned())
     return named({id->get<std::uint32_t>()}, one, many);
   const auto ids = parameters.find(many);
-  if (ids == parameters.end() || !is_list_of_vertices(*ids) || ids->empty()) return many;
+  if (ids == parameters.end() || !ids->is_array() || ids->empty() ||
+      !std::all_of(ids->begin(), ids->end(),
+                   [](const auto& id) { return id.is_number_unsigned(); }))
+    return many;
   return named(ids_of(*ids), one, many);
 }
 
@@ -463,7 +308,7 @@ CurvatureInterval interval_of(const nlohmann::json& json) {
 }
 
 Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,
-                          Outcome& outcome) {
+                          TreatmentOutcome& outcome) {
   const auto by_id = [&](std::uint32_t wanted) {
     return *std::find_if(ground.lines.lines.begin(), ground.lines.lines.end(),
                          [&](const LinePtr& line) { return line->id == wanted; });
@@ -488,7 +333,7 @@ Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& an
 }
 
 Result<PartitionPtr> find_partition(const Ground& ground, std::uint32_t id, const Triangle& anchor,
-                                    Round round, Outcome& outcome) {
+                                    Round round, TreatmentOutcome& outcome) {
   std::uint32_t label = id;
   if (round != Round::first) {
     label = 0;
@@ -538,18 +383,24 @@ void remove_paths(Ground& ground, const std::vector<Path>& paths, const nlohmann
   ground.change(changes);
 }
 
-void read_spared(ParameterReader& reader, const Document& document,
-                 const std::vector<Path>& paths) {
-  const nlohmann::json given = reader.raw("spared");
-  if (given.is_null()) {
-    reader.set("spared", spared_near(document, paths));
-    return;
-  }
-  if (!given.is_array() || !std::all_of(given.begin(), given.end(), [](const auto& p) {
-        return is_list_of_vertices(p) && p.size() == 2;
-      }))
-    reader.fault("spared", "a list of edges [a, b]");
-  reader.set("spared", given);
+Parameter spared_parameter() {
+  return {.name = "spared",
+          .help = "Edges near by that stay when it is done again.",
+          .derived = true,
+          .form = "a list of edges [a, b]"};
+}
+
+void complete_spared(ParameterReader& reader, const std::vector<Path>& paths) {
+  const nlohmann::json& given = reader.given("spared");
+  const bool good =
+      given.is_array() && std::all_of(given.begin(), given.end(), [](const auto& pair) {
+        return pair.is_array() && pair.size() == 2 &&
+               std::all_of(pair.begin(), pair.end(), [](const auto& v) {
+                 return v.is_number_unsigned() && v.template get<std::uint64_t>() < no_id;
+               });
+      });
+  if (!given.is_null() && !good) reader.fault("spared", form_of(spared_parameter()));
+  reader.set("spared", given.is_null() ? spared_near(reader.document(), paths) : given);
 }
 
 nlohmann::json spared_near(const Document& document, const std::vector<Path>& paths) {

@@ -49,29 +49,13 @@ enum class Round { first, after_lines, after_partitions };
 
 /// What a treatment did: a note where it had to adapt to what it found. Errors of a treatment leave
 /// the ground as it was.
-struct Outcome {
+struct TreatmentOutcome {
   std::string adapted;  ///< Empty: just as meant.
 };
 
-/// A treatment by hand.
-struct Treatment {
-  std::string_view name;
-  /// Whether it is done again after lines, or partitions, were found again.
-  bool (*belongs)(const nlohmann::json& parameters, Round round);
-  Result<Outcome> (*perform)(Ground&, const nlohmann::json& parameters, Round round);
-};
-
-const Treatment* find_treatment(std::string_view operation);
-
-/// Performs it for the first time, and keeps it as a correction.
-Result<Document> apply_treatment(std::string_view name, const Document& document,
+/// Performs a treatment for the first time, and keeps it as a correction.
+Result<Document> apply_treatment(const OperationKind& treatment, const Document& document,
                                  const nlohmann::json& parameters, const Context& context);
-/// The same as what the table of operations holds.
-template <const Treatment& treatment>
-Result<Document> perform_once(const Document& document, const nlohmann::json& parameters,
-                              const Context& context) {
-  return apply_treatment(treatment.name, document, parameters, context);
-}
 
 /// Does the corrections of a document again, in order, on lines (or partitions) found anew.
 std::vector<CorrectionPtr> correct(const std::vector<CorrectionPtr>& corrections, Ground& ground,
@@ -87,27 +71,14 @@ Result<void> refind_partitions(Document& document, const std::optional<nlohmann:
 
 /// Parameters of find_sharp_lines or recompute_lines as options; what is not there stays default.
 SharpLineOptions line_options_of(const nlohmann::json& parameters);
-/// Reads "max_angle" and "convexity".
-void read_bounds(ParameterReader& reader);
+/// Bounds of the angle, convexity and candidates, as find_sharp_lines and recompute_lines take
+/// them.
+std::vector<Parameter> kinds_of_edges();
 
 // Targets. A line is named by "line" or in "lines", a partition by "partition" or in "partitions",
 // with anchors in "path", "paths", "anchor" and "anchors".
 
 using Path = std::vector<VertexId>;
-
-/// Reads the ids under `name` and their anchors under `anchors`: those given, or those of the
-/// lines (partitions) that the document has. Faults: no id, one that the document does not have.
-void read_lines(ParameterReader& reader, const Document& document, const std::string& name,
-                const std::string& anchors, bool may_be_locked);
-void read_partitions(ParameterReader& reader, const Document& document, const std::string& name,
-                     const std::string& anchors, bool may_be_locked, bool may_be_empty = false);
-/// Reads a path of at least `least` vertices of the current mesh.
-Path read_path(ParameterReader& reader, const Document& document, const std::string& name,
-               std::size_t least);
-VertexId read_vertex(ParameterReader& reader, const Document& document, const std::string& name);
-void read_region(ParameterReader& reader, const Document& document, const std::string& name);
-void read_interval(ParameterReader& reader, const std::string& name,
-                   const CurvatureInterval& otherwise);
 
 Path path_of(const nlohmann::json& json);
 std::vector<Path> paths_of(const nlohmann::json& json);
@@ -125,15 +96,17 @@ std::string targets_in_words(const nlohmann::json& parameters, const std::string
 /// The line meant: by its id at first, later by its anchor; `outcome` says where it is not the
 /// same.
 Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,
-                          Outcome& outcome);
+                          TreatmentOutcome& outcome);
 Result<PartitionPtr> find_partition(const Ground& ground, std::uint32_t id, const Triangle& anchor,
-                                    Round round, Outcome& outcome);
+                                    Round round, TreatmentOutcome& outcome);
 
 /// Deletes along paths. Again: with what is found near them, but for `spared` edges.
 void remove_paths(Ground& ground, const std::vector<Path>& paths, const nlohmann::json& spared,
                   Round round);
-/// Reads the edges that a deletion along `paths` has to spare: those given, or those of now.
-void read_spared(ParameterReader& reader, const Document& document, const std::vector<Path>& paths);
+/// The parameter of what a deletion has to spare, and its value for one along `paths`: what is
+/// given, or what is near now.
+Parameter spared_parameter();
+void complete_spared(ParameterReader& reader, const std::vector<Path>& paths);
 /// Edges found near `paths` and not on them, as vertex pairs: what a deletion has to spare.
 nlohmann::json spared_near(const Document& document, const std::vector<Path>& paths);
 

@@ -45,7 +45,7 @@ Result<Found> run_operations(const std::vector<Operation>& operations, const Sca
   if (!document) return tl::unexpected<Error>(document.error());
   Found found;
   add_lines(*document, found);
-  if (document->find_partitions) found.labels = labels_on_scan(*document);
+  if (document->step("find_partitions")) found.labels = labels_on_scan(*document);
   found.document = std::make_shared<const Document>(std::move(*document));
   return found;
 }
