@@ -16,6 +16,7 @@
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/written_results.h"
 #include "tests/support/documents.h"
+#include "tests/support/test_name.h"
 
 namespace arris {
 namespace {
@@ -422,28 +423,60 @@ TEST_F(Cli, CoreToolNeedsNeitherQtNorVtk) {
   EXPECT_FALSE(std::regex_search(libraries, std::regex("libQt|libvtk"))) << libraries;
 }
 
-// ---- real data, where it is at hand ----
+// ---- scans: made, and real ones where they are at hand ----
 
-class RealScan : public Cli, public ::testing::WithParamInterface<const char*> {};
+class ResultsOfScans : public Cli {
+ protected:
+  void expect_segmented_and_replayed(const std::string& scan) {
+    const Outcome info = run({"info", scan, "--json"});
+    ASSERT_EQ(info.code, 0) << info.err;
+    const json report = json::parse(info.out);
+    const Outcome outcome = run({"segment", scan, "-o", folder.file("one")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    expect_valid_results(folder, "one", report["file_faces"]);
+    expect_done({"replay", folder.file("one/operations.jsonl"), "-o", folder.file("two")});
+    expect_same_files(folder, "one", "two");
+  }
+};
+
+TEST_F(ResultsOfScans, ANoisyOneIsSegmentedAndReplayed) {
+  expect_segmented_and_replayed(write_mesh(folder, "scan.ply", noisy(sample_mould(4.0), 0.15, 5)));
+}
+
+TEST_F(ResultsOfScans, ABrokenOneIsSegmentedAndReplayed) {
+  Triangles scan = noisy(sample_mould(4.0), 0.1, 6);
+  // A hole, faces there twice and turned over, one that is a line, and a third fan on an edge.
+  scan.triangles.erase(scan.triangles.begin() + 200, scan.triangles.begin() + 260);
+  for (std::size_t f = 0; f < 20; ++f) {
+    Triangle face = scan.triangles[10 * f];
+    if (f % 2) std::swap(face[0], face[1]);
+    scan.triangles.push_back(face);
+  }
+  const Triangle edge = scan.triangles[500];
+  scan.triangles.push_back({edge[0], edge[1], edge[1]});
+  scan.triangles.push_back({edge[0], edge[1], scan.triangles[900][2]});
+  std::ostringstream off;
+  off << "OFF\n" << scan.points.size() << " " << scan.triangles.size() << " 0\n";
+  for (const Point& p : scan.points) off << p.transpose() << "\n";
+  for (const Triangle& t : scan.triangles)
+    off << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  expect_segmented_and_replayed(folder.write("scan.off", off.str()));
+}
+
+class RealScan : public ResultsOfScans, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(RealScan, IsSegmentedAndReplayed) {
   const fs::path scan = fs::path(ARRIS_SOURCE_DIR) / "../shared/data" / GetParam();
   if (!fs::exists(scan)) GTEST_SKIP() << scan.string() << " is not at hand";
-  const Outcome info = run({"info", scan.string(), "--json"});
-  ASSERT_EQ(info.code, 0) << info.err;
-  const json report = json::parse(info.out);
-  const Outcome outcome = run({"segment", scan.string(), "-o", folder.file("one")});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  expect_valid_results(folder, "one", report["file_faces"]);
-  expect_done({"replay", folder.file("one/operations.jsonl"), "-o", folder.file("two")});
-  expect_same_files(folder, "one", "two");
+  expect_segmented_and_replayed(scan.string());
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, RealScan,
                          ::testing::Values("broken/crank.off", "broken/noisy_iso.off",
                                            "broken/raw_mesh.ply", "controls/rabbit_realscan.obj",
                                            "pairs/block_n1.obj", "real/iron_realscan.ply",
-                                           "real/TR12J_OCC64K.stl"));
+                                           "real/TR12J_OCC64K.stl"),
+                         [](const auto& scan) { return test_name(scan.param); });
 
 TEST_F(Cli, ASessionMayLieInTheFolderThatIsMadeForTheResults) {
   const std::string scan = write_mesh(folder, "part.ply", capped_cylinder(5.0, 12.0, 24, 8, 4));

@@ -10,11 +10,13 @@
 #include <numbers>
 #include <ostream>
 #include <stop_token>
+#include <string>
 
 #include "core/base/random.h"
 #include "core/base/thread_limit.h"
 #include "core/mesh/geometry.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test_name.h"
 
 namespace arris {
 namespace {
@@ -96,13 +98,14 @@ TEST_P(BoxCorner, HasTheValuesOfTheMethod) {
   EXPECT_NEAR(curvatures_of(*mesh, InvariantPairing::h1_k2)->ikabs[0], 5.0, 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Curvature, BoxCorner,
-                         ::testing::Values(CornerCase{{1, 1, 1}, 4.0 / 3.0, 19.0 / 3.0, 1e-5},
-                                           CornerCase{{1, 1, 2}, 1.534, 5.932, 6e-4},
-                                           CornerCase{{2, 1, 1}, 1.534, 5.932, 6e-4},
-                                           CornerCase{{2, 2, 2}, 2.196, 4.609, 6e-4},
-                                           CornerCase{
-                                               {200, 200, 200}, 8.0 / 3.0, 11.0 / 3.0, 1e-3}));
+INSTANTIATE_TEST_SUITE_P(
+    Curvature, BoxCorner,
+    ::testing::Values(CornerCase{{1, 1, 1}, 4.0 / 3.0, 19.0 / 3.0, 1e-5},
+                      CornerCase{{1, 1, 2}, 1.534, 5.932, 6e-4},
+                      CornerCase{{2, 1, 1}, 1.534, 5.932, 6e-4},
+                      CornerCase{{2, 2, 2}, 2.196, 4.609, 6e-4},
+                      CornerCase{{200, 200, 200}, 8.0 / 3.0, 11.0 / 3.0, 1e-3}),
+    [](const auto& corner) { return test_name(::testing::PrintToString(corner.param)); });
 
 TEST(Curvature, SplittingFlatFacesLeavesTheInvariantsAlone) {
   // A corner of three unequal sectors, convex, and one of a saddle.
@@ -167,7 +170,12 @@ TEST_P(StraightEdge, KeepsOneIkabsUpToTheRaggedBorder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Curvature, StraightEdge,
-                         ::testing::Values(0.05, 0.5, pi / 2.0, 2.5, -0.5, -pi / 2.0));
+                         ::testing::Values(0.05, 0.5, pi / 2.0, 2.5, -0.5, -pi / 2.0),
+                         [](const auto& angle) {
+                           const auto degrees = std::lround(std::abs(angle.param) * 180.0 / pi);
+                           return (angle.param > 0.0 ? "convex_by_" : "concave_by_") +
+                                  std::to_string(degrees) + "_degrees";
+                         });
 
 TEST(Curvature, ScalingScalesCurvaturesAndLeavesInvariantsAlone) {
   const Triangles base = random_terrain(12, 3);

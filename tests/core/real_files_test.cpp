@@ -1,7 +1,6 @@
 // Real scans, where they are there.
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
@@ -11,6 +10,7 @@
 
 #include "core/mesh/polygon_file.h"
 #include "core/mesh/scan.h"
+#include "tests/support/test_name.h"
 
 namespace arris {
 namespace {
@@ -69,12 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Files, RealData,
                                            RealMesh{"broken/crank.off", 49986, 100028},
                                            RealMesh{"broken/noisy_iso.off", 29197, 57838},
                                            RealMesh{"broken/raw_mesh.ply", 29768, 56884}),
-                         [](const auto& test) {
-                           std::string name = test.param.name;
-                           for (char& c : name)
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           return name;
-                         });
+                         [](const auto& mesh) { return testing::test_name(mesh.param.name); });
 
 Result<ScanPtr> load_shared(const char* name) { return load_scan((shared_data() / name).string()); }
 

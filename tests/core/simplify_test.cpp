@@ -224,6 +224,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"terrain", [] { return mesh_of(random_terrain(40, 5)); }, {0.05, 0.5}},
         Case{"genus_3", [] { return mesh_of(block_with_holes(3)); }, {0.0, 0.1, 10.0}},
         Case{"step", [] { return mesh_of(stepped_plate(5.0, 10.0, 2.0, 0.5)); }, {0.0, 0.1}},
+        Case{"noisy_mould", [] { return mould_mesh(0.2); }, {0.02, 0.3}},
         Case{"block", [] { return shared_scan("pairs/block_n1.obj"); }, {0.05}},
         Case{"pumptopcover", [] { return shared_scan("truth/pumptopcover_scan.ply"); }, {0.05}},
         Case{"broken", [] { return shared_scan("broken/raw_mesh.ply"); }, {0.01}}),
