@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -16,11 +18,14 @@
 #include "core/document/flow.h"
 #include "ui/view/graphics.h"
 #include "ui/window/about_dialog.h"
+#include "ui/window/field_presenter.h"
 #include "ui/window/log_file.h"
 #include "ui/window/main_window.h"
 #include "ui/window/named_views_presenter.h"
 #include "ui/window/report_presenter.h"
+#include "ui/window/session.h"
 #include "ui/window/theme.h"
+#include "ui/window/tour_presenter.h"
 
 namespace {
 
@@ -85,6 +90,221 @@ bool only_tells(int argc, char** argv) {
   });
 }
 
+/// What the command line asks for.
+struct Wanted {
+  QString scan;  ///< Empty: none is named.
+  bool sample = false;
+  bool run = false;
+  Flow flow = Flow::scan;
+  std::optional<Field> field;
+  std::optional<LengthUnit> unit;
+  QString picture, report;  ///< Written, and the program ends; empty: not.
+  QString view;             ///< Of the picture, by its name; empty: as it is opened.
+  bool whole_window = false;
+  QSize size;  ///< Of the picture.
+
+  bool ends() const { return !picture.isEmpty() || !report.isEmpty(); }
+};
+
+/// The command line of the window.
+class WindowOptions {
+ public:
+  WindowOptions() {
+    parser_.setApplicationDescription(
+        "Segments scanned moulds: sharp lines, curvature, partitions.");
+    told_ = {parser_.addHelpOption(), parser_.addVersionOption()};
+    parser_.addPositionalArgument("SCAN", "Scan (STL, PLY, OBJ, OFF, 3MF) or session to open.",
+                                  "[SCAN]");
+    const QList<QCommandLineOption> own{sample_, screenshot_, field_,  size_,   run_,
+                                        flow_,   unit_,       window_, report_, view_};
+    told_ << own;
+    parser_.addOptions(own);
+    QCommandLineOption manual(manual_option);
+    manual.setFlags(QCommandLineOption::HiddenFromHelp);
+    parser_.addOption(manual);
+  }
+
+  /// Reads it. An exit code where nothing is to be opened.
+  std::optional<int> read(const QStringList& arguments, Wanted& wanted) {
+    if (!parser_.parse(arguments)) return complain(parser_.errorText(), bad_usage);
+    if (parser_.isSet("help")) parser_.showHelp();
+    if (parser_.isSet("version")) parser_.showVersion();
+    if (parser_.isSet(manual_option))
+      return std::fputs(window_manual(parser_, told_).c_str(), stdout) < 0 ? bad_input : 0;
+    if (parser_.positionalArguments().size() > 1)
+      return complain("more than one scan was named; Arris opens one.", bad_usage);
+    wanted.scan = parser_.positionalArguments().value(0);
+    wanted.sample = parser_.isSet(sample_);
+    wanted.run = parser_.isSet(run_);
+    wanted.picture = parser_.value(screenshot_);
+    if (parser_.isSet(report_))
+      wanted.report = QFileInfo(parser_.value(report_)).absoluteFilePath();
+    wanted.view = parser_.value(view_);
+    wanted.whole_window = parser_.isSet(window_);
+    const QString fault = read_values(wanted);
+    if (!fault.isEmpty()) return complain(fault, bad_usage);
+    if (wanted.ends() && wanted.scan.isEmpty() && !wanted.sample)
+      return complain("--screenshot and --report need a scan to draw.", bad_usage);
+    return std::nullopt;
+  }
+
+ private:
+  /// Those of a few values; what is wrong with one, as a sentence.
+  QString read_values(Wanted& wanted) const {
+    if (parser_.isSet(field_)) {
+      wanted.field = find_field(parser_.value(field_).toStdString());
+      if (!wanted.field)
+        return "--field " + parser_.value(field_) + " is not one of " + field_names() + ".";
+    }
+    if (parser_.isSet(unit_)) {
+      wanted.unit = find_length_unit(parser_.value(unit_).toStdString());
+      if (!wanted.unit)
+        return "--unit " + parser_.value(unit_) + " is not one of " +
+               QString::fromStdString(length_unit_keys()) + ".";
+    }
+    const QString flow = parser_.value(flow_);
+    if (flow != "scan" && flow != "paper") return "--flow " + flow + " is neither scan nor paper.";
+    wanted.flow = flow == "paper" ? Flow::paper : Flow::scan;
+    constexpr int least = 16, most = 16384;  // pixels
+    const QStringList parts = parser_.value(size_).split('x');
+    bool good_width = false, good_height = false;
+    wanted.size = {parts.value(0).toInt(&good_width), parts.value(1).toInt(&good_height)};
+    if (parts.size() != 2 || !good_width || !good_height ||
+        wanted.size.expandedTo({least, least}).boundedTo({most, most}) != wanted.size)
+      return "--size " + parser_.value(size_) + " is not WIDTHxHEIGHT in pixels.";
+    return {};
+  }
+
+  QCommandLineParser parser_;
+  QList<QCommandLineOption> told_;  // that the manual page lists
+  const QCommandLineOption sample_{"sample", "Open the sample mould."};
+  const QCommandLineOption screenshot_{"screenshot", "Open, draw, save the picture and exit.",
+                                       "OUT.png"};
+  const QCommandLineOption field_{"field", "Field to show: " + field_names() + ".", "F"};
+  const QCommandLineOption size_{"size", "Size of the picture in pixels (1600x1200).", "WxH",
+                                 "1600x1200"};
+  const QCommandLineOption run_{"run", "Find sharp lines and partitions after opening."};
+  const QCommandLineOption flow_{
+      "flow",
+      "With --run: scan, the scan as it is; or paper, simplified first and equilateralised (scan).",
+      "FLOW", "scan"};
+  const QCommandLineOption unit_{
+      "unit",
+      "What lengths of the scan are in: " + QString::fromStdString(length_unit_keys()) +
+          "; left out: as the file says.",
+      "U"};
+  const QCommandLineOption report_{
+      "report", "Open, write the report with its pictures there and exit.", "FOLDER"};
+  const QCommandLineOption view_{"view", "With --screenshot: the view of this name.", "NAME"};
+  const QCommandLineOption window_{"window", "With --screenshot: the whole window."};
+};
+
+/// Does with the window what the command line asks for: the wanted field, unit and steps once the
+/// part is open, then the picture or the report.
+class Starting {
+ public:
+  Starting(MainWindow& window, const Wanted& wanted)
+      : window_(window), session_(window.session()), wanted_(wanted) {
+    QObject::connect(&session_, &Session::opened, &window_, [this] { take_opened(); });
+    QObject::connect(&session_, &Session::done, &window_, [this](const QString& name) {
+      if (wanted_.ends() && name == last_) write_once_settled();
+    });
+    if (wanted_.ends()) fail_aloud();
+  }
+
+  void open() {
+    const bool by_hand = !wanted_.ends() && !wanted_.run;
+    if (by_hand) window_.tour().offer();
+    window_.show();
+    // What a crash left behind comes before what was asked for: it would be forgotten otherwise.
+    if (by_hand && window_.offer_recovery()) return;
+    if (!wanted_.scan.isEmpty())
+      window_.open(wanted_.scan);
+    else if (wanted_.sample)
+      window_.open_sample();
+  }
+
+ private:
+  /// Nobody is there to answer.
+  void fail_aloud() {
+    QObject::disconnect(&session_, &Session::failed, nullptr, nullptr);
+    QObject::connect(&session_, &Session::failed, &window_, [](const QString& message) {
+      QApplication::exit(complain(message, bad_input));
+    });
+    QObject::disconnect(&session_, &Session::scan_lost, nullptr, nullptr);
+    QObject::connect(
+        &session_, &Session::scan_lost, &window_, [](const QString& name, const QString& lost) {
+          QApplication::exit(
+              complain(name + " was made on " + lost + ", which is not there.", bad_input));
+        });
+    // Pictures of a report are as wide as the view between its panels.
+    const QSize least = wanted_.report.isEmpty() ? QSize(1000, 700) : QSize(1600, 1000);
+    window_.resize(window_.size().expandedTo(least));
+  }
+
+  void take_opened() {
+    if (wanted_.field) window_.set_field(*wanted_.field);
+    std::vector<Operation> operations;
+    if (wanted_.unit && *wanted_.unit != length_unit_of(session_.current().document))
+      operations.push_back({"set_unit", {{"unit", info_of(*wanted_.unit).key}}});
+    if (wanted_.run)
+      for (Operation& operation : operations_of(wanted_.flow))
+        operations.push_back(std::move(operation));
+    if (!operations.empty()) {
+      last_ = QString::fromStdString(operations.back().name);
+      QTimer::singleShot(0, &window_, [this, operations] { session_.run(operations); });
+    } else if (wanted_.ends()) {
+      write_once_settled();
+    }
+  }
+
+  void write_once_settled() {
+    if (wanted_.field) window_.set_field(*wanted_.field);
+    constexpr int settles = 300;  // ms
+    auto* waiting = new QTimer(&window_);
+    QObject::connect(waiting, &QTimer::timeout, &window_, [this, waiting] {
+      if (window_.fields().working()) return;
+      waiting->stop();
+      write();
+    });
+    waiting->start(settles);
+  }
+
+  void write() {
+    if (!wanted_.report.isEmpty()) {
+      ReportRequest request;
+      request.folder = wanted_.report.toStdString();
+      window_.reports().write(request, true, [this](const QString& error) { end(error); });
+      return;
+    }
+    if (!wanted_.view.isEmpty()) {
+      const auto place = window_.named_views().find(wanted_.view);
+      if (!place) return end("there is no named view \"" + wanted_.view + "\" in this session.");
+      window_.named_views().show(*place);
+      window_.fields().wait_until_there();
+    }
+    QString error;
+    if (wanted_.whole_window) {
+      if (!window_.grab().save(wanted_.picture)) error = wanted_.picture + " could not be written.";
+    } else {
+      PictureOptions options;
+      options.size = wanted_.size;
+      window_.save_picture(wanted_.picture, options, &error);
+    }
+    end(error);
+  }
+
+  void end(const QString& error) {
+    session_.close();  // nothing that the next start would have to offer
+    QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
+  }
+
+  MainWindow& window_;
+  Session& session_;
+  Wanted wanted_;
+  QString last_;  // operation before the picture
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -101,172 +321,20 @@ int main(int argc, char** argv) {
   QApplication::setWindowIcon(QIcon(":/org.arris.Arris.png"));
   QLocale::setDefault(QLocale::c());
 
-  QCommandLineParser parser;
-  parser.setApplicationDescription("Segments scanned moulds: sharp lines, curvature, partitions.");
-  QList<QCommandLineOption> told{parser.addHelpOption(), parser.addVersionOption()};
-  parser.addPositionalArgument("SCAN", "Scan (STL, PLY, OBJ, OFF, 3MF) or session to open.",
-                               "[SCAN]");
-  const QCommandLineOption sample("sample", "Open the sample mould.");
-  const QCommandLineOption screenshot("screenshot", "Open, draw, save the picture and exit.",
-                                      "OUT.png");
-  const QString fields = field_names();
-  const QCommandLineOption field("field", "Field to show: " + fields + ".", "F");
-  const QCommandLineOption size("size", "Size of the picture in pixels (1600x1200).", "WxH",
-                                "1600x1200");
-  const QCommandLineOption run("run", "Find sharp lines and partitions after opening.");
-  const QCommandLineOption flow(
-      "flow",
-      "With --run: scan, the scan as it is; or paper, simplified first and equilateralised (scan).",
-      "FLOW", "scan");
-  const QCommandLineOption unit(
-      "unit",
-      "What lengths of the scan are in: " + QString::fromStdString(length_unit_keys()) +
-          "; left out: as the file says.",
-      "U");
-  const QCommandLineOption report(
-      "report", "Open, write the report with its pictures there and exit.", "FOLDER");
-  const QCommandLineOption view("view", "With --screenshot: the view of this name.", "NAME");
-  const QCommandLineOption window("window", "With --screenshot: the whole window.");
-  QCommandLineOption manual(manual_option);
-  manual.setFlags(QCommandLineOption::HiddenFromHelp);
-  told << sample << screenshot << field << size << run << flow << unit << window << report << view;
-  parser.addOptions(told.sliced(2));
-  parser.addOption(manual);
-  if (!parser.parse(application.arguments())) return complain(parser.errorText(), bad_usage);
-  if (parser.isSet("help")) parser.showHelp();
-  if (parser.isSet("version")) parser.showVersion();
-  if (parser.isSet(manual))
-    return std::fputs(window_manual(parser, told).c_str(), stdout) < 0 ? bad_input : 0;
-  if (parser.positionalArguments().size() > 1)
-    return complain("more than one scan was named; Arris opens one.", bad_usage);
-
-  std::optional<Field> wanted_field;
-  if (parser.isSet(field)) {
-    wanted_field = find_field(parser.value(field).toStdString());
-    if (!wanted_field)
-      return complain("--field " + parser.value(field) + " is not one of " + fields + ".",
-                      bad_usage);
-  }
-  std::optional<LengthUnit> wanted_unit;
-  if (parser.isSet(unit)) {
-    wanted_unit = find_length_unit(parser.value(unit).toStdString());
-    if (!wanted_unit)
-      return complain("--unit " + parser.value(unit) + " is not one of " +
-                          QString::fromStdString(length_unit_keys()) + ".",
-                      bad_usage);
-  }
-  if (parser.value(flow) != "scan" && parser.value(flow) != "paper")
-    return complain("--flow " + parser.value(flow) + " is neither scan nor paper.", bad_usage);
-  const QStringList parts = parser.value(size).split('x');
-  bool good_width = false, good_height = false;
-  const int width = parts.value(0).toInt(&good_width);
-  const int height = parts.value(1).toInt(&good_height);
-  if (parts.size() != 2 || !good_width || !good_height || width < 16 || height < 16 ||
-      width > 16384 || height > 16384)
-    return complain("--size " + parser.value(size) + " is not WIDTHxHEIGHT in pixels.", bad_usage);
-
+  Wanted wanted;
+  if (const auto code = WindowOptions().read(application.arguments(), wanted)) return *code;
   set_theme(application, false);
-  const QString picture = parser.value(screenshot);
-  const bool write_report = parser.isSet(report);
-  const bool shoot = parser.isSet(screenshot) || write_report;  // then exit
   log_warnings();
   if (const QString why = why_nothing_can_be_drawn(); !why.isEmpty()) {
     program_log().write(why);
     complain(why, no_graphics);
-    if (!shoot) QMessageBox::critical(nullptr, "Arris", why);
+    if (!wanted.ends()) QMessageBox::critical(nullptr, "Arris", why);
     return no_graphics;
   }
   program_log().write("started: " + made_of().join(", ") + "; " + graphics_text());
-  MainWindow main_window;
-  Session& session = main_window.session();
-  keep_log_of(session);
-  if (shoot && parser.positionalArguments().isEmpty() && !parser.isSet(sample))
-    return complain("--screenshot and --report need a scan to draw.", bad_usage);
-
-  // After opening: the wanted field, unit and steps, then the picture where one is wanted.
-  const auto last = std::make_shared<QString>();  // operation before the picture
-  const auto save = std::make_shared<std::function<void()>>();
-  QObject::connect(&session, &Session::opened, &main_window, [&, last, save] {
-    if (wanted_field) main_window.set_field(*wanted_field);
-    std::vector<Operation> operations;
-    if (wanted_unit && *wanted_unit != length_unit_of(session.current().document))
-      operations.push_back({"set_unit", {{"unit", info_of(*wanted_unit).key}}});
-    if (parser.isSet(run))
-      for (Operation& operation :
-           operations_of(parser.value(flow) == "paper" ? Flow::paper : Flow::scan))
-        operations.push_back(std::move(operation));
-    if (operations.empty()) {
-      if (*save) (*save)();
-      return;
-    }
-    *last = QString::fromStdString(operations.back().name);
-    QTimer::singleShot(0, &main_window, [&session, operations] { session.run(operations); });
-  });
-  if (shoot) {
-    QObject::disconnect(&session, &Session::failed, nullptr, nullptr);
-    QObject::connect(&session, &Session::failed, &main_window, [](const QString& message) {
-      QApplication::exit(complain(message, bad_input));
-    });
-    QObject::disconnect(&session, &Session::scan_lost, nullptr, nullptr);
-    QObject::connect(
-        &session, &Session::scan_lost, &main_window, [](const QString& name, const QString& lost) {
-          QApplication::exit(
-              complain(name + " was made on " + lost + ", which is not there.", bad_input));
-        });
-    const auto end = [&session](const QString& error) {
-      session.close();  // nothing that the next start would have to offer
-      QApplication::exit(error.isEmpty() ? 0 : complain(error, bad_input));
-    };
-    const auto shoot_now = [&, end, picture, width, height] {
-      QString error;
-      if (write_report) {
-        ReportRequest request;
-        request.folder = QFileInfo(parser.value(report)).absoluteFilePath().toStdString();
-        main_window.reports().write(request, true, end);
-        return;
-      }
-      if (parser.isSet(view)) {
-        const QString name = parser.value(view);
-        const auto place = main_window.named_views().find(name);
-        if (!place) return end("there is no named view \"" + name + "\" in this session.");
-        main_window.named_views().show(*place);
-        main_window.fields().wait_until_there();
-      }
-      if (parser.isSet(window)) {
-        if (!main_window.grab().save(picture)) error = picture + " could not be written.";
-      } else {
-        PictureOptions options;
-        options.size = {width, height};
-        main_window.save_picture(picture, options, &error);
-      }
-      end(error);
-    };
-    *save = [&, shoot_now] {
-      if (wanted_field) main_window.set_field(*wanted_field);
-      // Once everything has settled, and the field is there.
-      auto* waiting = new QTimer(&main_window);
-      QObject::connect(waiting, &QTimer::timeout, &main_window, [&, waiting, shoot_now] {
-        if (main_window.fields().working()) return;
-        waiting->stop();
-        shoot_now();
-      });
-      waiting->start(300);
-    };
-    QObject::connect(&session, &Session::done, &main_window, [last, save](const QString& name) {
-      if (name == *last) (*save)();
-    });
-    // Pictures of a report are as wide as the view between its panels.
-    const QSize least = write_report ? QSize(1600, 1000) : QSize(1000, 700);
-    main_window.resize(main_window.size().expandedTo(least));
-  }
-  if (!shoot && !parser.isSet(run)) main_window.tour().offer();
-  main_window.show();
-  // What a crash left behind comes before what was asked for: it would be forgotten otherwise.
-  if (!shoot && !parser.isSet(run) && main_window.offer_recovery()) {
-  } else if (!parser.positionalArguments().isEmpty()) {
-    main_window.open(parser.positionalArguments().first());
-  } else if (parser.isSet(sample)) {
-    main_window.open_sample();
-  }
+  MainWindow window;
+  keep_log_of(window.session());
+  Starting starting(window, wanted);
+  starting.open();
   return QApplication::exec();
 }

@@ -71,7 +71,7 @@ std::string type_of(const Parameter& parameter) {
       keys += (keys.empty() ? "{" : ",") + std::string(choice.key);
     return keys + "}";
   }
-  if (parameter.kind == ParameterKind::intervals) return "MIN:MAX ...";
+  if (parameter.kind == ParameterKind::intervals) return "MIN:MAX";
   if (parameter.unit == unit_of_part) return "LENGTH";
   if (parameter.most >= static_cast<double>(most_faces)) return whole ? "N" : "NUMBER";
   return (whole ? "N in [" : "NUMBER in [") + number_text(parameter.least) + " - " +
@@ -84,7 +84,7 @@ std::string help_of(const Parameter& parameter, const std::string& note) {
   if (parameter.kind == ParameterKind::intervals)
     help += " MIN or MAX may be left out; may be repeated.";
   if (!parameter.otherwise.from().empty())
-    help += " Left out: from " + std::string(parameter.otherwise.from()) + ".";
+    help += " By default: " + std::string(parameter.otherwise.from()) + ".";
   if (!note.empty()) help += " " + note + ".";
   return help;
 }
@@ -99,14 +99,14 @@ std::string expected(const Parameter& parameter) {
 StepOptions::StepOptions(CLI::App& command, std::string_view operation, const std::string& note) {
   for (const Parameter& parameter : find_operation(operation)->parameters) {
     if (parameter.option.empty()) continue;
-    Entry& entry = entries_.emplace_back(Entry{&parameter, nullptr, {}});
-    entry.option = command.add_option("--" + std::string(parameter.option), entry.texts,
-                                      help_of(parameter, note));
-    entry.option->type_name(type_of(parameter))->allow_extra_args(false);
+    Entry& entry = entries_.emplace_back(Entry{&parameter, nullptr, {}, {}});
+    const std::string name = "--" + std::string(parameter.option), help = help_of(parameter, note);
     if (parameter.kind == ParameterKind::intervals)
-      entry.option->take_all();
+      entry.option =
+          command.add_option(name, entry.texts, help)->take_all()->allow_extra_args(false);
     else
-      entry.option->take_last();
+      entry.option = command.add_option(name, entry.text, help);
+    entry.option->type_name(type_of(parameter));
     entry.option->check([&parameter](const std::string& text) {
       return value_in(parameter, text) ? std::string()
                                        : "'" + text + "' is not " + expected(parameter);
@@ -116,15 +116,14 @@ StepOptions::StepOptions(CLI::App& command, std::string_view operation, const st
 
 json StepOptions::given() const {
   json parameters = json::object();
-  for (const Entry& entry : entries_)
-    for (const std::string& text : entry.texts) {
-      json& own = parameters[std::string(entry.parameter->name)];
-      const std::optional<json> value = value_in(*entry.parameter, text);
-      if (entry.parameter->kind == ParameterKind::intervals)
-        own.push_back(*value);
-      else
-        own = *value;
-    }
+  for (const Entry& entry : entries_) {
+    if (!*entry.option) continue;
+    json& own = parameters[std::string(entry.parameter->name)];
+    if (entry.parameter->kind == ParameterKind::intervals)
+      for (const std::string& text : entry.texts) own.push_back(*value_in(*entry.parameter, text));
+    else
+      own = *value_in(*entry.parameter, entry.text);
+  }
   return parameters;
 }
 

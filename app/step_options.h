@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -36,7 +37,8 @@ class StepOptions {
   struct Entry {
     const Parameter* parameter;
     CLI::Option* option;
-    std::vector<std::string> texts;
+    std::string text;
+    std::vector<std::string> texts;  // of one that may be repeated
   };
   std::deque<Entry> entries_;  // which CLI11 fills: they stay where they are
 };

@@ -15,6 +15,9 @@ struct ChainStep {
   bool on_demand = false;     ///< Lines and partitions of a scan can be had without it.
   bool changes_mesh = false;  ///< The document's mesh is another one after it.
   bool leaves_mesh = false;   ///< Its mesh is kept for the steps after it to start from.
+  /// Came after version 0.1: it is in the hash of documents in which it was run, and no other's
+  /// hash changes by it.
+  bool later = false;
 };
 
 /// The one table of steps, in the order in which they run (document.md, rule 3).

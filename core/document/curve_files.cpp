@@ -86,42 +86,26 @@ std::string curves_obj(const HandedCurves& curves) {
   return text;
 }
 
-std::string curves_dxf(const HandedCurves& curves) {
+namespace {
+
+/// A DXF file as groups of a code and a value, a line each.
+struct DxfText {
   std::string text;
-  const auto put = [&](int code, std::string_view value) {
+
+  void put(int code, std::string_view value) {
     text += std::to_string(code) + "\n";
     text += value;
     text += "\n";
-  };
-  const auto put_point = [&](const Point& p) {
-    for (int axis = 0; axis < 3; ++axis) put(10 * (axis + 1), number_text(p[axis], digits));
-  };
-  Point low = Point::Zero(), high = Point::Zero();
-  bool any = false;
-  std::vector<std::string_view> layers;
-  for (const HandedCurve& curve : curves.curves) {
-    if (std::ranges::find(layers, curve.layer) == layers.end()) layers.push_back(curve.layer);
-    for (const VertexId v : *curve.path) {
-      const Point& p = curves.mesh.point(v);
-      low = any ? Point(low.cwiseMin(p)) : p;
-      high = any ? Point(high.cwiseMax(p)) : p;
-      any = true;
-    }
   }
-  put(999, "Arris: " + curves.title + "; lengths in " + lengths_in(curves.unit));
-  put(0, "SECTION");
-  put(2, "HEADER");
-  put(9, "$ACADVER");
-  put(1, "AC1009");
-  put(9, "$INSUNITS");
-  put(70, dxf_unit(curves.unit));
-  put(9, "$EXTMIN");
-  put_point(low);
-  put(9, "$EXTMAX");
-  put_point(high);
-  put(0, "ENDSEC");
-  put(0, "SECTION");
-  put(2, "TABLES");
+  void put_point(const Point& p) {
+    for (int axis = 0; axis < 3; ++axis) put(10 * (axis + 1), number_text(p[axis], digits));
+  }
+  void put_line_types();
+  void put_layers(const std::vector<std::string_view>& layers);
+  void put_polyline(const Mesh& mesh, const HandedCurve& curve);
+};
+
+void DxfText::put_line_types() {
   put(0, "TABLE");
   put(2, "LTYPE");
   put(70, "1");
@@ -133,6 +117,9 @@ std::string curves_dxf(const HandedCurves& curves) {
   put(73, "0");
   put(40, "0.0");
   put(0, "ENDTAB");
+}
+
+void DxfText::put_layers(const std::vector<std::string_view>& layers) {
   put(0, "TABLE");
   put(2, "LAYER");
   put(70, std::to_string(layers.size()));
@@ -145,28 +132,64 @@ std::string curves_dxf(const HandedCurves& curves) {
     put(6, "CONTINUOUS");
   }
   put(0, "ENDTAB");
-  put(0, "ENDSEC");
-  put(0, "SECTION");
-  put(2, "ENTITIES");
-  for (const HandedCurve& curve : curves.curves) {
-    put(0, "POLYLINE");
+}
+
+void DxfText::put_polyline(const Mesh& mesh, const HandedCurve& curve) {
+  put(0, "POLYLINE");
+  put(8, curve.layer);
+  put(66, "1");
+  put_point(Point::Zero());
+  put(70, curve.closed ? "9" : "8");  // 8: in space, 1: closed
+  const std::size_t count = curve.path->size() - (curve.closed ? 1 : 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    put(0, "VERTEX");
     put(8, curve.layer);
-    put(66, "1");
-    put_point(Point::Zero());
-    put(70, curve.closed ? "9" : "8");  // 8: in space, 1: closed
-    const std::size_t count = curve.path->size() - (curve.closed ? 1 : 0);
-    for (std::size_t k = 0; k < count; ++k) {
-      put(0, "VERTEX");
-      put(8, curve.layer);
-      put_point(curves.mesh.point((*curve.path)[k]));
-      put(70, "32");
-    }
-    put(0, "SEQEND");
-    put(8, curve.layer);
+    put_point(mesh.point((*curve.path)[k]));
+    put(70, "32");
   }
-  put(0, "ENDSEC");
-  put(0, "EOF");
-  return text;
+  put(0, "SEQEND");
+  put(8, curve.layer);
+}
+
+}  // namespace
+
+std::string curves_dxf(const HandedCurves& curves) {
+  DxfText dxf;
+  Point low = Point::Zero(), high = Point::Zero();
+  bool any = false;
+  std::vector<std::string_view> layers;
+  for (const HandedCurve& curve : curves.curves) {
+    if (std::ranges::find(layers, curve.layer) == layers.end()) layers.push_back(curve.layer);
+    for (const VertexId v : *curve.path) {
+      const Point& p = curves.mesh.point(v);
+      low = any ? Point(low.cwiseMin(p)) : p;
+      high = any ? Point(high.cwiseMax(p)) : p;
+      any = true;
+    }
+  }
+  dxf.put(999, "Arris: " + curves.title + "; lengths in " + lengths_in(curves.unit));
+  dxf.put(0, "SECTION");
+  dxf.put(2, "HEADER");
+  dxf.put(9, "$ACADVER");
+  dxf.put(1, "AC1009");
+  dxf.put(9, "$INSUNITS");
+  dxf.put(70, dxf_unit(curves.unit));
+  dxf.put(9, "$EXTMIN");
+  dxf.put_point(low);
+  dxf.put(9, "$EXTMAX");
+  dxf.put_point(high);
+  dxf.put(0, "ENDSEC");
+  dxf.put(0, "SECTION");
+  dxf.put(2, "TABLES");
+  dxf.put_line_types();
+  dxf.put_layers(layers);
+  dxf.put(0, "ENDSEC");
+  dxf.put(0, "SECTION");
+  dxf.put(2, "ENTITIES");
+  for (const HandedCurve& curve : curves.curves) dxf.put_polyline(curves.mesh, curve);
+  dxf.put(0, "ENDSEC");
+  dxf.put(0, "EOF");
+  return dxf.text;
 }
 
 std::string curves_step(const HandedCurves& curves) {

@@ -167,9 +167,11 @@ std::string hash_of(const Document& document) {
   };
   add_mesh_of(document.opened);
   for (std::size_t k = 0; k < chain_steps.size(); ++k)
-    if (chain_steps[k].leaves_mesh) add_mesh_of(document.outputs[k]);
+    if (chain_steps[k].leaves_mesh && (!chain_steps[k].later || document.outputs[k].mesh))
+      add_mesh_of(document.outputs[k]);
   add(hasher, document.zones);
-  for (const std::optional<Step>& step : document.steps) add(hasher, step);
+  for (std::size_t k = 0; k < chain_steps.size(); ++k)
+    if (!chain_steps[k].later || document.steps[k]) add(hasher, document.steps[k]);
   hasher.number(document.next_id);
   // Only where it was said: documents of before there was such an operation are what they were.
   if (document.unit) hasher.text(info_of(*document.unit).key);

@@ -222,11 +222,9 @@ CorrectionPtr read_correction(Reader& in) {
   return std::make_shared<const Correction>(id, std::move(*operation), state, std::move(message));
 }
 
-}  // namespace
-
-std::optional<std::string> bytes_of(const Document& document) {
-  if (document.empty() || document.smoothed) return std::nullopt;
-  Writer out;
+/// The meshes of the stages with their zones, each once. False: there is one that this layout
+/// cannot hold.
+bool write_stages(Writer& out, const Document& document) {
   const auto scan_points = document.scan->mesh->points();
   std::vector<MeshPtr> meshes{document.scan->mesh};
   std::vector<ErrorZonesPtr> zones;
@@ -247,7 +245,7 @@ std::optional<std::string> bytes_of(const Document& document) {
     // All begin with the points of the scan; deleting faces may split vertices, which adds some.
     if (own.size() < scan_points.size() ||
         std::memcmp(own.data(), scan_points.data(), scan_points.size_bytes()) != 0)
-      return std::nullopt;
+      return false;
     std::vector<std::array<double, 3>> added;
     for (const Point& p : own.subspan(scan_points.size())) added.push_back({p.x(), p.y(), p.z()});
     out.values(added);
@@ -261,11 +259,14 @@ std::optional<std::string> bytes_of(const Document& document) {
   out.values(stages);
   out.value(document.scan_faces != nullptr);
   if (document.scan_faces) out.values(*document.scan_faces);
+  return true;
+}
 
-  out.chunked(document.lines.edges);
-  out.values(document.lines.cuts);
-  out.value(std::uint64_t{document.lines.lines.size()});
-  for (const LinePtr& line : document.lines.lines) {
+void write_lines(Writer& out, const SharpLines& lines) {
+  out.chunked(lines.edges);
+  out.values(lines.cuts);
+  out.value(std::uint64_t{lines.lines.size()});
+  for (const LinePtr& line : lines.lines) {
     out.value(line->id);
     out.value(line->closed);
     out.value(line->length);
@@ -274,9 +275,12 @@ std::optional<std::string> bytes_of(const Document& document) {
     out.value(line->locked);
     out.values(line->vertices);
   }
-  out.chunked(document.partitions.labels);
-  out.value(std::uint64_t{document.partitions.partitions.size()});
-  for (const PartitionPtr& partition : document.partitions.partitions) {
+}
+
+void write_partitions(Writer& out, const Partitions& partitions) {
+  out.chunked(partitions.labels);
+  out.value(std::uint64_t{partitions.partitions.size()});
+  for (const PartitionPtr& partition : partitions.partitions) {
     out.value(partition->id);
     out.value(partition->anchor);
     out.value(partition->faces);
@@ -287,6 +291,16 @@ std::optional<std::string> bytes_of(const Document& document) {
     out.value(partition->interval.max);
     out.value(partition->locked);
   }
+}
+
+}  // namespace
+
+std::optional<std::string> bytes_of(const Document& document) {
+  if (document.empty() || document.smoothed) return std::nullopt;
+  Writer out;
+  if (!write_stages(out, document)) return std::nullopt;
+  write_lines(out, document.lines);
+  write_partitions(out, document.partitions);
   out.value(std::uint64_t{document.corrections.size()});
   for (const CorrectionPtr& correction : document.corrections) {
     out.value(correction->id);

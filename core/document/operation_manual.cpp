@@ -16,7 +16,7 @@ std::string value_in_words(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// "A number from 0.1 to 179.9 (°); left out: from the noise of the scan."
+/// "A number from 0.1 to 179.9 (°); by default: by the noise of the scan."
 std::string form_in_words(const Parameter& parameter) {
   std::string text = form_of(parameter);
   if (!parameter.unit.empty())
@@ -29,9 +29,9 @@ std::string form_in_words(const Parameter& parameter) {
   else if (!parameter.otherwise.there())
     text += "; must be given";
   else if (!parameter.otherwise.from().empty())
-    text += "; left out: from " + std::string(parameter.otherwise.from());
+    text += "; by default: " + std::string(parameter.otherwise.from());
   else
-    text += "; left out: " + value_in_words(parameter.otherwise.constant());
+    text += "; by default: " + value_in_words(parameter.otherwise.constant());
   if (!parameter.only_with.empty()) text += "; only with " + std::string(parameter.only_with);
   if (!parameter.method.empty()) text += "; counts with method " + std::string(parameter.method);
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));

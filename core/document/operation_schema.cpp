@@ -76,7 +76,7 @@ json schema_of(const OperationKind& kind) {
     std::string text(parameter.help);
     if (!parameter.form.empty()) text += " Expected: " + std::string(parameter.form) + ".";
     if (!parameter.otherwise.from().empty())
-      text += " Left out: from " + std::string(parameter.otherwise.from()) + ".";
+      text += " By default: " + std::string(parameter.otherwise.from()) + ".";
     own["description"] = text;
     if (!parameter.unit.empty()) own["unit"] = parameter.unit;
     if (!parameter.otherwise.constant().is_null()) own["default"] = parameter.otherwise.constant();

@@ -64,12 +64,12 @@ class Default {
     none.value_ = nlohmann::json::array();
     return none;
   }
-  /// Worked out; `from` says from what: "the noise of the scan".
+  /// Worked out; `from` says how: "three times the noise of the scan".
   Default(std::string_view from, nlohmann::json (*make)(const DefaultFrom&))
       : from_(from), make_(make) {}
 
   bool there() const { return make_ || !value_.is_null(); }
-  /// From what it is worked out; empty: it is the same for every part.
+  /// How it is worked out; empty: it is the same for every part.
   std::string_view from() const { return from_; }
   /// Null where it is worked out.
   const nlohmann::json& constant() const { return value_; }

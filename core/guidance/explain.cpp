@@ -450,6 +450,100 @@ Explanation explain_edge(const Document& document, EdgeId e) {
   return result;
 }
 
+namespace {
+
+Explanation explain_by_surfaces(const Document& document, const Step& step, FaceId f) {
+  const std::uint32_t label = document.partitions.label(f);
+  Explanation result;
+  result.holds = label != 0;
+  for (const HalfEdgeId side : document.mesh->sides(f))
+    result.tests.push_back(side_test(document, side, label));
+  const std::string detail = short_text(step.parameters.value("detail", 1.0));
+  const std::string old = step.out_of_date ? ", from before an earlier step changed" : "";
+  result.headline = !result.holds
+                        ? "In no partition: a correction took it away" + old + "."
+                        : "In partition " + std::to_string(label) +
+                              ", of faces that one surface explains at detail " + detail +
+                              ", or that no kink of curvature parts (a free area)" + old + ".";
+  return result;
+}
+
+/// What fronts made of a face.
+struct FaceVerdict {
+  const CurvatureInterval* passed;  ///< Null: it passes none.
+  const Partition* partition;       ///< Null: it is in none.
+  int votes;                        ///< Of its vertices.
+  std::uint32_t front;              ///< Faces of the front through it.
+  const ExplainedTest* worst;       ///< Of its vertices that do not pass; null: all do.
+};
+
+/// How a face came into its partition.
+std::string why_held(const Document& document, const FaceRules& rules, FaceId f,
+                     const FaceVerdict& verdict) {
+  const Partition* partition = verdict.partition;
+  if (verdict.passed && partition && verdict.passed == &partition->interval &&
+      verdict.front >= rules.min_faces())
+    return "; " + rules.name() + " lies in the interval " + interval_text(rules, *verdict.passed);
+  if (const auto anchor = partition ? document.mesh->find_face(partition->anchor) : std::nullopt;
+      verdict.votes == 0 && anchor && rules.front().votes(*anchor) == 0)
+    return ", an area between lines without a vertex inside, judged as a whole";
+  if (const FaceId across = rules.front().across_longest(f);
+      verdict.votes == 0 && across != no_id &&
+      document.partitions.label(across) == document.partitions.label(f))
+    return ", joined without a vote across its longest side";
+  if (rules.fill_holes() > 0)
+    return ", filled as part of a hole of fewer than " +
+           counted(rules.fill_holes(), "face", "faces");
+  return " by a correction";
+}
+
+/// Why a face is in no partition.
+std::string why_unassigned(const FaceRules& rules, FaceId f, const FaceVerdict& verdict) {
+  if (rules.intervals().empty()) return "no interval is in force";
+  if (verdict.votes == 0)
+    return "all its vertices lie on lines or the border, and no partition lies across its longest "
+           "side";
+  if (verdict.passed && verdict.front < rules.min_faces())
+    return "the front here covers " + counted(verdict.front, "face", "faces") +
+           ", fewer than the " + std::to_string(rules.min_faces()) + " that make a partition";
+  if (verdict.passed) return "it passes, so a correction took it away afterwards";
+  if (rules.each_vote_held(f))
+    return "its vertices lie in different intervals, and no interval holds all of them";
+  if (!verdict.worst) return {};
+  std::string reason = verdict.worst->sentence;
+  reason.pop_back();
+  reason[0] = 'v';
+  return reason;
+}
+
+ExplainedTest test_of_votes(int votes) {
+  return {
+      "Regular vertices",
+      static_cast<double>(votes),
+      1.0,
+      "",
+      votes > 0,
+      votes > 0
+          ? std::to_string(votes) + " of its vertices lie inside, off lines and border, and vote."
+          : "All its vertices lie on lines or the border: it neither starts nor carries a "
+            "front."};
+}
+
+ExplainedTest test_of_front(std::uint32_t front, std::uint32_t least) {
+  const bool enough = front >= least;
+  return {"Faces of its front",
+          static_cast<double>(front),
+          static_cast<double>(least),
+          "",
+          enough,
+          enough ? "A front through it covers at least the " + counted(least, "face", "faces") +
+                       " that make a partition."
+                 : "A front through it covers " + counted(front, "face", "faces") +
+                       ", fewer than the " + std::to_string(least) + " that make a partition."};
+}
+
+}  // namespace
+
 Explanation explain_face(const Document& document, FaceId f) {
   Explanation result;
   if (!document.mesh || f >= document.mesh->face_count()) {
@@ -467,18 +561,9 @@ Explanation explain_face(const Document& document, FaceId f) {
                                    : "In no partition: partitions were not looked for yet.";
     return result;
   }
+  if (document.partition_method() == PartitionMethod::surfaces)
+    return explain_by_surfaces(document, *step, f);
   const Partition* partition = document.partitions.find(label);
-  if (document.partition_method() == PartitionMethod::surfaces) {
-    for (const HalfEdgeId side : mesh.sides(f))
-      result.tests.push_back(side_test(document, side, label));
-    const std::string detail = short_text(step->parameters.value("detail", 1.0));
-    const std::string old = step->out_of_date ? ", from before an earlier step changed" : "";
-    result.headline = !result.holds
-                          ? "In no partition: a correction took it away" + old + "."
-                          : in + ", of faces that one surface explains at detail " + detail +
-                                ", or that no kink of curvature parts (a free area)" + old + ".";
-    return result;
-  }
   const FaceRules rules(document, step->parameters);
   const CurvatureInterval* passed = partition && rules.front().passes(f, partition->interval)
                                         ? &partition->interval
@@ -486,77 +571,25 @@ Explanation explain_face(const Document& document, FaceId f) {
   const CurvatureInterval* held = passed      ? passed
                                   : partition ? &partition->interval
                                               : rules.nearest_interval(f);
-  const int votes = rules.front().votes(f);
-  result.tests.push_back(
-      {"Regular vertices", static_cast<double>(votes), 1.0, "", votes > 0,
-       votes > 0 ? std::to_string(votes) + " of its vertices lie inside, off lines and border, and "
-                                           "vote."
-                 : "All its vertices lie on lines or the border: it neither starts nor carries a "
-                   "front."});
-  const ExplainedTest* worst = nullptr;
+  FaceVerdict verdict{passed, partition, rules.front().votes(f), 0, nullptr};
+  result.tests.push_back(test_of_votes(verdict.votes));
   std::vector<ExplainedTest> of_vertices;
   for (const VertexId v : mesh.triangle(f))
     of_vertices.push_back(vertex_test(mesh, rules, v, held));
   for (const ExplainedTest& test : of_vertices)
-    if (!test.passed && (!worst || std::abs(test.value - test.threshold) >
+    if (const ExplainedTest* worst = verdict.worst;
+        !test.passed && (!worst || std::abs(test.value - test.threshold) >
                                        std::abs(worst->value - worst->threshold)))
-      worst = &test;
+      verdict.worst = &test;
   result.tests.insert(result.tests.end(), of_vertices.begin(), of_vertices.end());
-
-  std::uint32_t front = 0;
   if (passed) {
-    front = rules.front_size(f, *passed, rules.min_faces());
-    const bool enough = front >= rules.min_faces();
-    result.tests.push_back(
-        {"Faces of its front", static_cast<double>(front), static_cast<double>(rules.min_faces()),
-         "", enough,
-         enough ? "A front through it covers at least the " +
-                      counted(rules.min_faces(), "face", "faces") + " that make a partition."
-                : "A front through it covers " + counted(front, "face", "faces") +
-                      ", fewer than the " + std::to_string(rules.min_faces()) +
-                      " that make a partition."});
+    verdict.front = rules.front_size(f, *passed, rules.min_faces());
+    result.tests.push_back(test_of_front(verdict.front, rules.min_faces()));
   }
   for (const HalfEdgeId h : mesh.sides(f)) result.tests.push_back(side_test(document, h, label));
-
-  const std::string dated = step->out_of_date ? ", from before an earlier step changed." : ".";
-  if (result.holds) {
-    if (passed && partition && passed == &partition->interval && front >= rules.min_faces())
-      result.headline = in + "; " + rules.name() + " lies in the interval " +
-                        interval_text(rules, *passed) + dated;
-    else if (const auto anchor = partition ? mesh.find_face(partition->anchor) : std::nullopt;
-             votes == 0 && anchor && rules.front().votes(*anchor) == 0)
-      result.headline =
-          in + ", an area between lines without a vertex inside, judged as a whole" + dated;
-    else if (const FaceId across = rules.front().across_longest(f);
-             votes == 0 && across != no_id && document.partitions.label(across) == label)
-      result.headline = in + ", joined without a vote across its longest side" + dated;
-    else if (rules.fill_holes() > 0)
-      result.headline = in + ", filled as part of a hole of fewer than " +
-                        counted(rules.fill_holes(), "face", "faces") + dated;
-    else
-      result.headline = in + " by a correction" + dated;
-    return result;
-  }
-  std::string reason;
-  if (rules.intervals().empty())
-    reason = "no interval is in force";
-  else if (votes == 0)
-    reason =
-        "all its vertices lie on lines or the border, and no partition lies across its longest "
-        "side";
-  else if (passed && front < rules.min_faces())
-    reason = "the front here covers " + counted(front, "face", "faces") + ", fewer than the " +
-             std::to_string(rules.min_faces()) + " that make a partition";
-  else if (passed)
-    reason = "it passes, so a correction took it away afterwards";
-  else if (rules.each_vote_held(f))
-    reason = "its vertices lie in different intervals, and no interval holds all of them";
-  else if (worst) {
-    reason = worst->sentence;
-    reason.pop_back();
-    reason[0] = 'v';
-  }
-  result.headline = "In no partition: " + reason + dated;
+  result.headline = (result.holds ? in + why_held(document, rules, f, verdict)
+                                  : "In no partition: " + why_unassigned(rules, f, verdict)) +
+                    (step->out_of_date ? ", from before an earlier step changed." : ".");
   return result;
 }
 

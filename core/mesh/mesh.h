@@ -138,9 +138,8 @@ class Mesh {
   const std::string& hash() const { return hash_; }
   std::size_t bytes() const;
 
-  const HalfEdgeMesh& open_mesh() const { return half_edges_; }
-
  private:
+  struct Build;
   Mesh() = default;
   template <class Handle>
   static std::uint32_t id(Handle handle) {

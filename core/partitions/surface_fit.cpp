@@ -226,6 +226,49 @@ class Fitting {
     }
   }
 
+  /// The step that the normal equations of the active parameters ask for, a little damped; 0 for
+  /// the others.
+  static Eigen::Matrix<double, 8, 1> solved(const std::array<std::array<double, 8>, 8>& upper,
+                                            const std::array<double, 8>& falls,
+                                            const std::array<std::size_t, 8>& active,
+                                            std::size_t count) {
+    using Row = Eigen::Matrix<double, 8, 1>;
+    Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Identity();
+    Row right = Row::Zero();
+    for (std::size_t a = 0; a < count; ++a) {
+      const auto j = static_cast<Eigen::Index>(active[a]);
+      right[j] = falls[a];
+      for (std::size_t b = a; b < count; ++b) {
+        const auto k = static_cast<Eigen::Index>(active[b]);
+        gram(j, k) = gram(k, j) = upper[a][b];
+      }
+    }
+    for (int k = 0; k < 8; ++k) {
+      gram(k, k) *= 1.0 + 1e-6;
+      gram(k, k) += 1e-12 * gram.trace();
+    }
+    return gram.ldlt().solve(right);
+  }
+
+  /// Changes the parameters that it `has`, no farther at once than the linear picture holds.
+  void move(Surface& surface, Eigen::Matrix<double, 8, 1> step,
+            const std::array<Vector3d, 3>& frame, const std::array<bool, 8>& has) const {
+    const auto& [x, y, axis] = frame;
+    double share = std::min(1.0, 0.3 / std::max(std::hypot(step[3], step[4]), 1e-12));
+    const auto keeps = [&](double value, double change) {
+      if (change < 0.0) share = std::min(share, -0.5 * value / change);
+    };
+    if (has[5]) keeps(surface.radius, step[5]);
+    if (has[6]) keeps(surface.tube, step[6]);
+    if (has[7]) share = std::min(share, 0.3 / std::max(std::abs(step[7]), 1e-12));
+    step *= share;
+    surface.point += step[0] * x + step[1] * y + step[2] * axis;
+    surface.axis = turned(surface, step[3] * x + step[4] * y, surface.point);
+    surface.radius += step[5];
+    surface.tube += step[6];
+    surface.half_angle += step[7];
+  }
+
   /// A step of Gauss and Newton on distances and normals, far samples counting less.
   /// `mean`: the misfit that it started from. False where it leads to no such surface.
   bool improve(Surface& surface, std::size_t stride, double& mean) {
@@ -275,36 +318,9 @@ class Fitting {
           upper[a][b] += dj * by.distance[active[b]] + nj.dot(by.normal[active[b]]);
       }
     }
-    Eigen::Matrix<double, 8, 8> gram = Eigen::Matrix<double, 8, 8>::Identity();
-    Row right = Row::Zero();
-    for (std::size_t a = 0; a < count; ++a) {
-      const auto j = static_cast<Eigen::Index>(active[a]);
-      right[j] = falls[a];
-      for (std::size_t b = a; b < count; ++b) {
-        const auto k = static_cast<Eigen::Index>(active[b]);
-        gram(j, k) = gram(k, j) = upper[a][b];
-      }
-    }
-    for (int k = 0; k < 8; ++k) {
-      gram(k, k) *= 1.0 + 1e-6;
-      gram(k, k) += 1e-12 * gram.trace();
-    }
-    Row step = gram.ldlt().solve(right);
+    const Row step = solved(upper, falls, active, count);
     if (!step.allFinite()) return false;
-    // No farther at once than the linear picture holds.
-    double share = std::min(1.0, 0.3 / std::max(std::hypot(step[3], step[4]), 1e-12));
-    const auto keeps = [&](double value, double change) {
-      if (change < 0.0) share = std::min(share, -0.5 * value / change);
-    };
-    if (has[5]) keeps(surface.radius, step[5]);
-    if (has[6]) keeps(surface.tube, step[6]);
-    if (has[7]) share = std::min(share, 0.3 / std::max(std::abs(step[7]), 1e-12));
-    step *= share;
-    surface.point += step[0] * x + step[1] * y + step[2] * surface.axis;
-    surface.axis = turned(surface, step[3] * x + step[4] * y, surface.point);
-    surface.radius += step[5];
-    surface.tube += step[6];
-    surface.half_angle += step[7];
+    move(surface, step, frame, has);
     if (has[7]) return surface.half_angle > 0.02 && surface.half_angle < 1.55;
     return surface.radius < options_.largest_radius && surface.tube < options_.largest_radius &&
            (!has[6] || surface.tube >= options_.least_tube);

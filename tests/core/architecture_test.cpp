@@ -77,11 +77,12 @@ void expect_order(const std::string& top, const std::vector<std::string>& order)
   }
 }
 
-TEST(Architecture, FoldersOfCoreKnowOnlyThoseBeforeThem) {
-  expect_order("core", {"base", "mesh", "samples", "curvature", "sharp_lines", "simplification",
-                        "edge_swapping", "curvature_smoothing", "partitions", "document",
-                        "guidance", "report"});
-}
+const std::vector<std::string> core_order{
+    "base",        "mesh",           "samples",       "curvature",
+    "sharp_lines", "simplification", "edge_swapping", "curvature_smoothing",
+    "partitions",  "document",       "guidance",      "report"};
+
+TEST(Architecture, FoldersOfCoreKnowOnlyThoseBeforeThem) { expect_order("core", core_order); }
 
 TEST(Architecture, FoldersOfTheWindowKnowOnlyThoseBeforeThem) {
   expect_order("ui", {"view", "panels", "window"});
@@ -145,6 +146,38 @@ TEST(Architecture, CoreNamesItsOwnHeadersFromTheRoot) {
   for (const Include& include : includes_below("core"))
     EXPECT_EQ(include.header.find(".."), std::string::npos)
         << include.file.string() << ":" << include.line;
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(std::filesystem::path(ARRIS_SOURCE_DIR) / file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What a newcomer is told to open is there.
+TEST(Architecture, ReadmeAndContributingNameFilesThatAreThere) {
+  static const std::regex named("`((core|ui|app|tests|resources)/[A-Za-z0-9_/.*]+)`");
+  for (const char* file : {"README.md", ".github/CONTRIBUTING.md"}) {
+    const std::string text = content_of(file);
+    std::size_t checked = 0;
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) {
+      const std::string path = (*it)[1];
+      if (path.find('*') != std::string::npos) continue;
+      const auto full = std::filesystem::path(ARRIS_SOURCE_DIR) / path;
+      // A source file may be named without its ending.
+      EXPECT_TRUE(std::filesystem::exists(full) || std::filesystem::exists(full.string() + ".cpp"))
+          << file << ": " << path;
+      ++checked;
+    }
+    EXPECT_GT(checked, 10u) << file;
+  }
+}
+
+TEST(Architecture, ReadmeTellsTheOrderOfFoldersThatHolds) {
+  std::string order;
+  for (const std::string& folder : core_order) order += (order.empty() ? "" : ", ") + folder;
+  EXPECT_NE(content_of("README.md").find("includes only those before it: " + order),
+            std::string::npos)
+      << order;
 }
 
 }  // namespace

@@ -69,6 +69,33 @@ class SavePicture : public MainWindowTest {
   const QTemporaryDir folder;
 };
 
+TEST_F(SavePicture, TitleAndThresholdsStandUnderThePartAndAreRemembered) {
+  open_sample();
+  run({"find_sharp_lines"});
+  window->view().look_from(MeshView::StandardView::top);
+  const QImage bare = saved([&](PictureDialog& dialog) { without_extras(dialog); });
+  QString said;
+  const QImage titled = saved([&](PictureDialog& dialog) {
+    EXPECT_FALSE(dialog.findChild<QCheckBox*>("picture_titled")->isChecked()) << "remembered";
+    dialog.findChild<QCheckBox*>("picture_titled")->setChecked(true);
+    EXPECT_EQ(dialog.findChild<QLineEdit*>("picture_title")->text(), "sample_mould");
+    dialog.findChild<QLineEdit*>("picture_title")->setText("Cover, second try");
+    auto* thresholds = dialog.findChild<QCheckBox*>("picture_thresholds");
+    EXPECT_TRUE(thresholds->toolTip().contains("Find sharp lines, "));
+    thresholds->setChecked(true);
+    said = dialog.options().caption;
+  });
+  EXPECT_TRUE(said.startsWith("Cover, second try\nFind sharp lines, ")) << said.toStdString();
+  EXPECT_TRUE(said.contains(" lines, ")) << "what was found";
+  ASSERT_EQ(bare.size(), titled.size());
+  int above = 0, below = 0;  // pixels that differ
+  for (int y = 0; y < bare.height(); ++y)
+    for (int x = 0; x < bare.width(); ++x)
+      (y < bare.height() * 4 / 5 ? above : below) += bare.pixel(x, y) != titled.pixel(x, y);
+  EXPECT_EQ(above, 0) << "the part is where it was";
+  EXPECT_GT(below, 1000);
+}
+
 TEST_F(SavePicture, OnPaperIsToScaleAndSaysItsResolution) {
   open_sample();
   window->view().look_from(MeshView::StandardView::top);

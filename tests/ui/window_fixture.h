@@ -11,7 +11,17 @@
 #include <QStandardPaths>
 #include <QTest>
 
+#include "ui/panels/histogram_panel.h"
+#include "ui/window/comparison_presenter.h"
+#include "ui/window/elements_presenter.h"
+#include "ui/window/explanation_presenter.h"
+#include "ui/window/field_presenter.h"
 #include "ui/window/main_window.h"
+#include "ui/window/named_views_presenter.h"
+#include "ui/window/report_presenter.h"
+#include "ui/window/session.h"
+#include "ui/window/tour_presenter.h"
+#include "ui/window/worklist_presenter.h"
 
 /// The whole window, opened as a user would.
 namespace arris::ui {

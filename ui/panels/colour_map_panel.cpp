@@ -189,30 +189,55 @@ class ColourMapPanel::Private {
     return button;
   }
 
-  void build();
-};
+  QFormLayout* form = nullptr;
 
-void ColourMapPanel::Private::build() {
-  auto* form = new QFormLayout;
-  form->setContentsMargins(0, 0, 0, 0);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  form->setVerticalSpacing(6);
-  const auto add = [&](const QString& text, QWidget* editor, const QString& tooltip) {
+  void add(const QString& text, QWidget* editor, const QString& tooltip) {
     auto* label = new QLabel(text, q);
     label->setToolTip(tooltip);
     label->setBuddy(editor);
     if (editor->toolTip().isEmpty()) editor->setToolTip(tooltip);
     form->addRow(label, editor);
-  };
+  }
+  void add_under_top(const QString& text, QLayout* editors) {
+    auto* label = new QLabel(text, q);
+    label->setAlignment(Qt::AlignTop);
+    label->setContentsMargins(0, 2, 0, 0);
+    form->addRow(label, editors);
+  }
+  void make_range_ends();
+  void add_range();
+  void add_scale();
+  void add_colours();
+  void follow_map_and_range();
+  void follow_scale();
+  void build();
+};
 
+void ColourMapPanel::Private::build() {
+  form = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setVerticalSpacing(6);
   field = new QuietCombo(q);
   add(tr("Fiel&d"), field, tr("What colours the part."));
   map = new QuietCombo(q);
   map->addItems(colour_map_names());
   map->setIconSize(strip_size);
   add(tr("&Map"), map, tr("The colours from low to high."));
+  make_range_ends();
+  add_range();
+  add_scale();
+  add_colours();
+  auto* column = new QVBoxLayout(q);
+  column->addLayout(form);
+  column->addStretch(1);
+  follow_map_and_range();
+  follow_scale();
+  show_strips();
+  show();
+}
 
-  // The two ways to a range stand under each other, their ends in two columns.
+void ColourMapPanel::Private::make_range_ends() {
   by_percentile = new QRadioButton(tr("Per&centiles"), q);
   by_percentile->setToolTip(tr("The range leaves out these shares of the area at both ends."));
   by_typing = new QRadioButton(tr("V&alues"), q);
@@ -236,6 +261,10 @@ void ColourMapPanel::Private::build() {
   max = new NumberEdit(q);
   max->set_help(tr("Value at the high end of the colours; Enter sets it."));
   max->setAccessibleName(tr("Greatest value"));
+}
+
+/// The two ways to a range stand under each other, their ends in two columns.
+void ColourMapPanel::Private::add_range() {
   locked = new QCheckBox(tr("&Lock across parts"), q);
   locked->setToolTip(tr("Keeps this range when another part is opened, so that pictures compare."));
 
@@ -253,11 +282,10 @@ void ColourMapPanel::Private::build() {
   add_ends(0, by_percentile, low, high);
   add_ends(2, by_typing, min, max);
   range->addWidget(locked, 4, 0, 1, 3);
-  auto* range_label = new QLabel(tr("Range"), q);
-  range_label->setAlignment(Qt::AlignTop);
-  range_label->setContentsMargins(0, 2, 0, 0);
-  form->addRow(range_label, range);
+  add_under_top(tr("Range"), range);
+}
 
+void ColourMapPanel::Private::add_scale() {
   logarithmic = new QCheckBox(tr("Lo&garithmic"), q);
   logarithmic->setToolTip(tr("Equal ratios get equal steps of colour; for fields never below 0."));
   reversed = new QCheckBox(tr("&Reversed"), q);
@@ -267,11 +295,10 @@ void ColourMapPanel::Private::build() {
   scale_row->setSpacing(4);
   scale_row->addWidget(logarithmic);
   scale_row->addWidget(reversed);
-  auto* scale_label = new QLabel(tr("Scale"), q);
-  scale_label->setContentsMargins(0, 2, 0, 0);
-  scale_label->setAlignment(Qt::AlignTop);
-  form->addRow(scale_label, scale_row);
+  add_under_top(tr("Scale"), scale_row);
+}
 
+void ColourMapPanel::Private::add_colours() {
   bands = new WholeBox(q);
   bands->setRange(1, 32);
   bands->setSpecialValueText(tr("Smooth"));
@@ -284,11 +311,9 @@ void ColourMapPanel::Private::build() {
       own_button(undefined, tr("Colour where the field is undefined"),
                  tr("Colour where the field has no value, as on the border.")),
       {});
+}
 
-  auto* column = new QVBoxLayout(q);
-  column->addLayout(form);
-  column->addStretch(1);
-
+void ColourMapPanel::Private::follow_map_and_range() {
   QObject::connect(field, &QComboBox::activated, q, [this](int index) {
     if (index == state.field) return;
     state.field = index;
@@ -317,6 +342,9 @@ void ColourMapPanel::Private::build() {
   for (NumberEdit* edit : {min, max}) {
     QObject::connect(edit, &QLineEdit::editingFinished, q, [this, edit] { typed(edit); });
   }
+}
+
+void ColourMapPanel::Private::follow_scale() {
   const auto flag = [this](QCheckBox* box, bool& kept) {
     QObject::connect(box, &QCheckBox::clicked, q, [this, &kept](bool on) {
       kept = on;
@@ -333,8 +361,6 @@ void ColourMapPanel::Private::build() {
     show_strips();
     tell();
   });
-  show_strips();
-  show();
 }
 
 ColourMapPanel::ColourMapPanel(QWidget* parent)

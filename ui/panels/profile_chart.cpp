@@ -57,68 +57,93 @@ void ProfileChart::set_profile(std::optional<JumpProfile> profile) {
   update();
 }
 
+/// Where turns and distances lie in the plot, and its colours.
+struct ProfileChart::Plot {
+  QRect area;
+  ValueAxis turns;
+  int line;     ///< Height of a line of text.
+  int numbers;  ///< Width of a number.
+  QColor ground, ink, muted;
+
+  double x_of(double distance) const {
+    const ValueAxis distances{-JumpProfile::reach, JumpProfile::reach, false};
+    return area.left() + distances.position(distance) * area.width();
+  }
+  double y_of(double turn) const { return area.bottom() - turns.position(turn) * area.height(); }
+};
+
 void ProfileChart::paintEvent(QPaintEvent*) {
   if (!profile_) return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QFontMetrics metrics = fontMetrics();
-  const QColor ground = palette().color(QPalette::Base), ink = palette().color(QPalette::Text);
-  const QColor muted = muted_text(palette());
-  const ValueAxis turns = turn_axis(*profile_);
-  const ValueAxis distances{-JumpProfile::reach, JumpProfile::reach, false};
   const int line = metrics.height();
   const int numbers = metrics.horizontalAdvance(QStringLiteral("−180"));
-  const QRect plot = rect().adjusted(line + gap + numbers + gap, gap + line / 2, -gap - line / 2,
-                                     -2 * line - 2 * gap);
-  const auto x_of = [&](double distance) {
-    return plot.left() + distances.position(distance) * plot.width();
-  };
-  const auto y_of = [&](double turn) {
-    return plot.bottom() - turns.position(turn) * plot.height();
-  };
-  painter.fillRect(plot, ground);
+  const Plot plot{rect().adjusted(line + gap + numbers + gap, gap + line / 2, -gap - line / 2,
+                                  -2 * line - 2 * gap),
+                  turn_axis(*profile_),
+                  line,
+                  numbers,
+                  palette().color(QPalette::Base),
+                  palette().color(QPalette::Text),
+                  muted_text(palette())};
+  paint_axes(painter, plot);
+  painter.setClipRect(plot.area.adjusted(-3, -3, 3, 3));
+  paint_sides(painter, plot);
+  if (profile_->fitted()) paint_jump(painter, plot);
+}
+
+void ProfileChart::paint_axes(QPainter& painter, const Plot& plot) const {
+  const int line = plot.line;
+  const int numbers = plot.numbers;
+  const QColor &ground = plot.ground, &ink = plot.ink, &muted = plot.muted;
+  painter.fillRect(plot.area, ground);
   for (const double side : {-1.0, 1.0}) {
-    const double from = x_of(side * profile_->near), to = x_of(side * profile_->far);
-    painter.fillRect(QRectF(std::min(from, to), plot.top(), std::abs(to - from), plot.height()),
-                     mix(ground, ink, 0.06));
+    const double from = plot.x_of(side * profile_->near), to = plot.x_of(side * profile_->far);
+    painter.fillRect(
+        QRectF(std::min(from, to), plot.area.top(), std::abs(to - from), plot.area.height()),
+        mix(ground, ink, 0.06));
   }
 
   // Axes.
   painter.setPen(muted);
-  for (const double turn : tick_values(turns, std::max(2, plot.height() / (2 * line)))) {
-    const double y = y_of(turn);
+  for (const double turn : tick_values(plot.turns, std::max(2, plot.area.height() / (2 * line)))) {
+    const double y = plot.y_of(turn);
     painter.setPen(mix(ground, ink, turn == 0.0 ? 0.4 : 0.12));
-    painter.drawLine(QPointF(plot.left(), y), QPointF(plot.right(), y));
+    painter.drawLine(QPointF(plot.area.left(), y), QPointF(plot.area.right(), y));
     painter.setPen(muted);
-    painter.drawText(QRectF(plot.left() - gap - numbers, y - line / 2.0, numbers, line),
+    painter.drawText(QRectF(plot.area.left() - gap - numbers, y - line / 2.0, numbers, line),
                      Qt::AlignRight | Qt::AlignVCenter, shown_number(turn, 3));
   }
   for (int distance = -4; distance <= 4; distance += 2) {
-    const double x = x_of(distance);
-    painter.drawLine(QPointF(x, plot.bottom()), QPointF(x, plot.bottom() + 3));
-    painter.drawText(QRectF(x - numbers, plot.bottom() + gap, 2.0 * numbers, line),
+    const double x = plot.x_of(distance);
+    painter.drawLine(QPointF(x, plot.area.bottom()), QPointF(x, plot.area.bottom() + 3));
+    painter.drawText(QRectF(x - numbers, plot.area.bottom() + gap, 2.0 * numbers, line),
                      Qt::AlignHCenter | Qt::AlignTop, shown_number(distance));
   }
-  painter.drawText(QRect(plot.left(), height() - line - 1, plot.width(), line), Qt::AlignCenter,
-                   tr("distance (edges)"));
+  painter.drawText(QRect(plot.area.left(), height() - line - 1, plot.area.width(), line),
+                   Qt::AlignCenter, tr("distance (edges)"));
   painter.save();
-  painter.translate(0, plot.bottom());
+  painter.translate(0, plot.area.bottom());
   painter.rotate(-90.0);
-  painter.drawText(QRect(0, 0, plot.height(), line), Qt::AlignCenter, tr("turn (°)"));
+  painter.drawText(QRect(0, 0, plot.area.height(), line), Qt::AlignCenter, tr("turn (°)"));
   painter.restore();
   painter.setPen(mix(ground, ink, 0.4));
   painter.setBrush(Qt::NoBrush);
-  painter.drawRect(plot);
+  painter.drawRect(plot.area);
   painter.setPen(QPen(mix(ground, ink, 0.4), 1.0, Qt::DotLine));
-  painter.drawLine(QPointF(x_of(0.0), plot.top()), QPointF(x_of(0.0), plot.bottom()));
+  painter.drawLine(QPointF(plot.x_of(0.0), plot.area.top()),
+                   QPointF(plot.x_of(0.0), plot.area.bottom()));
+}
 
-  painter.setClipRect(plot.adjusted(-3, -3, 3, 3));
+void ProfileChart::paint_sides(QPainter& painter, const Plot& plot) const {
+  const QColor &ground = plot.ground, &ink = plot.ink;
   const QColor fit = palette().color(QPalette::Highlight);
   for (std::size_t k = 0; k < 2; ++k) {
     const JumpProfile::Side& side = profile_->sides[k];
     if (!side.fitted) continue;
     const auto at = [&](double t) {
-      return QPointF(x_of(k == 0 ? -t : t), y_of(side.at_line + side.slope * t));
+      return QPointF(plot.x_of(k == 0 ? -t : t), plot.y_of(side.at_line + side.slope * t));
     };
     painter.setPen(QPen(fit, 1.6, Qt::DashLine));
     painter.drawLine(at(0.0), at(profile_->near));
@@ -128,20 +153,24 @@ void ProfileChart::paintEvent(QPaintEvent*) {
   painter.setPen(Qt::NoPen);
   painter.setBrush(mix(ground, ink, 0.75));
   for (const JumpProfile::Dot& dot : profile_->dots)
-    painter.drawEllipse(QPointF(x_of(dot.distance), y_of(dot.turn)), 3.0, 3.0);
-  if (!profile_->fitted()) return;
+    painter.drawEllipse(QPointF(plot.x_of(dot.distance), plot.y_of(dot.turn)), 3.0, 3.0);
+}
+
+void ProfileChart::paint_jump(QPainter& painter, const Plot& plot) const {
+  const int line = plot.line;
+  const QColor& muted = plot.muted;
   // As far as it counts: lines that cross before they meet the edge leave none.
   const double middle = (profile_->sides[0].at_line + profile_->sides[1].at_line) / 2.0;
   const double half = profile_->jump() / 2.0;
   painter.setPen(QPen(jump_colour(palette()), 4.0, Qt::SolidLine, Qt::FlatCap));
-  painter.drawLine(QPointF(x_of(0.0), y_of(middle - half)),
-                   QPointF(x_of(0.0), y_of(middle + half)));
+  painter.drawLine(QPointF(plot.x_of(0.0), plot.y_of(middle - half)),
+                   QPointF(plot.x_of(0.0), plot.y_of(middle + half)));
   // In the corner where the surface is not: a convex one rises to the right.
-  const double top = half >= 0.0 ? plot.bottom() - 2 * line - gap : plot.top() + gap;
+  const double top = half >= 0.0 ? plot.area.bottom() - 2 * line - gap : plot.area.top() + gap;
   const auto write = [&](int row, const QColor& colour, const QString& text) {
     painter.setPen(colour);
-    const double left = x_of(0.0) + 2 * gap;
-    painter.drawText(QRectF(left, top + row * line, plot.right() - left, line),
+    const double left = plot.x_of(0.0) + 2 * gap;
+    painter.drawText(QRectF(left, top + row * line, plot.area.right() - left, line),
                      Qt::AlignLeft | Qt::AlignVCenter, text);
   };
   const double surround = profile_->turn() - profile_->jump();

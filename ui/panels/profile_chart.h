@@ -26,6 +26,12 @@ class ProfileChart : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  struct Plot;
+  void paint_axes(QPainter& painter, const Plot& plot) const;
+  void paint_sides(QPainter& painter, const Plot& plot) const;
+  /// The jump at the edge, and what it says.
+  void paint_jump(QPainter& painter, const Plot& plot) const;
+
   std::optional<JumpProfile> profile_;
 };
 

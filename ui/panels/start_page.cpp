@@ -161,6 +161,41 @@ class StartPage::Private {
 };
 
 StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Private>()) {
+  make_ground();
+  auto* name = new QLabel(QStringLiteral("Arris"), p_->page);
+  name->setFont(scaled(name->font(), 3.0, true));
+  auto* sentence = new QLabel(tr("Finds the sharp lines and the partitions of a scanned mould, and "
+                                 "keeps every step in your "
+                                 "hands."),
+                              p_->page);
+  sentence->setFont(scaled(sentence->font(), 1.15, false));
+  sentence->setWordWrap(true);
+  make_buttons();
+  auto* drop = new DropHint(tr("Drop a file here"), p_->page);
+  drop->setAlignment(Qt::AlignCenter);
+  drop->setMinimumHeight(56);
+  drop->setToolTip(tr("PLY, STL, OBJ and OFF files can be dropped anywhere in this window."));
+  p_->columns = new QHBoxLayout;
+  p_->columns->setSpacing(32);
+  p_->columns->addLayout(make_recent(), 1);
+  p_->columns->addLayout(make_steps(), 1);
+
+  auto* column = new QVBoxLayout(p_->page);
+  column->setContentsMargins(20, 28, 20, 20);
+  column->setSpacing(8);
+  column->addStretch(1);
+  column->addWidget(name);
+  column->addWidget(sentence);
+  column->addSpacing(14);
+  column->addLayout(p_->buttons);
+  column->addSpacing(4);
+  column->addWidget(drop);
+  column->addSpacing(20);
+  column->addLayout(p_->columns);
+  column->addStretch(2);
+}
+
+void StartPage::make_ground() {
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
@@ -178,16 +213,9 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
   centred->addStretch(1);
   centred->addWidget(p_->page, 100);
   centred->addStretch(1);
+}
 
-  auto* name = new QLabel(QStringLiteral("Arris"), p_->page);
-  name->setFont(scaled(name->font(), 3.0, true));
-  auto* sentence = new QLabel(tr("Finds the sharp lines and the partitions of a scanned mould, and "
-                                 "keeps every step in your "
-                                 "hands."),
-                              p_->page);
-  sentence->setFont(scaled(sentence->font(), 1.15, false));
-  sentence->setWordWrap(true);
-
+void StartPage::make_buttons() {
   auto* open = p_->big_button(tr("Open scan…"), tr("Opens a scan or a session from a file."));
   open->setDefault(true);
   auto* sample = p_->big_button(tr("Open the sample mould"),
@@ -196,12 +224,11 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
   p_->buttons->setSpacing(12);
   p_->buttons->addWidget(open);
   p_->buttons->addWidget(sample);
+  connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
+  connect(sample, &QPushButton::clicked, this, &StartPage::sample_wanted);
+}
 
-  auto* drop = new DropHint(tr("Drop a file here"), p_->page);
-  drop->setAlignment(Qt::AlignCenter);
-  drop->setMinimumHeight(56);
-  drop->setToolTip(tr("PLY, STL, OBJ and OFF files can be dropped anywhere in this window."));
-
+QBoxLayout* StartPage::make_recent() {
   auto* left = new QVBoxLayout;
   left->setSpacing(6);
   left->addWidget(p_->heading(tr("Recent files")));
@@ -212,6 +239,10 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
   p_->recent->setSpacing(0);
   left->addLayout(p_->recent);
   left->addStretch(1);
+  return left;
+}
+
+QBoxLayout* StartPage::make_steps() {
   auto* right = new QVBoxLayout;
   right->setSpacing(10);
   auto* tour = new QPushButton(tr("Take the tour on the sample mould"), p_->page);
@@ -227,28 +258,8 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), p_(std::make_unique<Pri
   p_->steps->setSpacing(10);
   right->addLayout(p_->steps);
   right->addStretch(1);
-  p_->columns = new QHBoxLayout;
-  p_->columns->setSpacing(32);
-  p_->columns->addLayout(left, 1);
-  p_->columns->addLayout(right, 1);
-
-  auto* column = new QVBoxLayout(p_->page);
-  column->setContentsMargins(20, 28, 20, 20);
-  column->setSpacing(8);
-  column->addStretch(1);
-  column->addWidget(name);
-  column->addWidget(sentence);
-  column->addSpacing(14);
-  column->addLayout(p_->buttons);
-  column->addSpacing(4);
-  column->addWidget(drop);
-  column->addSpacing(20);
-  column->addLayout(p_->columns);
-  column->addStretch(2);
-
-  connect(open, &QPushButton::clicked, this, &StartPage::open_wanted);
-  connect(sample, &QPushButton::clicked, this, &StartPage::sample_wanted);
   connect(tour, &QPushButton::clicked, this, &StartPage::tour_wanted);
+  return right;
 }
 
 StartPage::~StartPage() = default;

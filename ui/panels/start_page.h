@@ -7,6 +7,8 @@
 #include <QStringList>
 #include <QWidget>
 
+class QBoxLayout;
+
 namespace arris::ui {
 
 /// Shown while no part is open: open, the sample mould, recent files, the steps of the tour.
@@ -31,6 +33,11 @@ class StartPage : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void make_ground();
+  void make_buttons();
+  QBoxLayout* make_recent();
+  QBoxLayout* make_steps();
+
   class Private;
   std::unique_ptr<Private> p_;
 };

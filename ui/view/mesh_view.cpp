@@ -488,6 +488,8 @@ QImage MeshView::picture(const PictureOptions& options) {
   if (!options.scalar_bar) overlay.field.reset();
   overlay.scale_bar = overlay.scale_bar && options.scale_bar;
   overlay.orientation_marker = overlay.orientation_marker && options.orientation_marker;
+  if (!options.legend) overlay.line_types.clear();
+  overlay.hint = options.caption;
   ToolOverlay tools = impl_->tools(frame.camera, picture_size);
   tools.dark = overlay.dark;
   tools.ring.clear();

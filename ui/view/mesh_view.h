@@ -94,6 +94,8 @@ struct PictureOptions {
   bool scalar_bar = true;
   bool scale_bar = true;
   bool orientation_marker = true;
+  bool legend = true;             // of the lines, where the view shows it
+  QString caption;                // lines of text at the bottom; empty: none
   QColor background = Qt::white;  // transparent where its alpha is 0
 };
 

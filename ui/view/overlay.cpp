@@ -117,17 +117,50 @@ std::vector<Tick> ticks_of(const ViewField& field, double height) {
   return ticks;
 }
 
+constexpr double strip_width = 18.0;
+constexpr double tip_height = 12.0;  ///< Of what stands for colours beyond the range.
+
+/// The strip of colours, with its tips.
+void paint_strip(QPainter& painter, const Look& look, const ColourScale& scale, double x, double y,
+                 double height) {
+  // Row by row of the device, so that the strip is as fine as the surface.
+  const int rows = static_cast<int>(std::ceil(height * painter.transform().m22()));
+  QImage image(1, rows, QImage::Format_RGB32);
+  ColourScale plain;
+  plain.map = scale.map;
+  plain.reversed = scale.reversed;
+  plain.bands = scale.bands;
+  for (int row = 0; row < rows; ++row) {
+    image.setPixelColor(0, row, to_colour(plain.colour(1.0 - (row + 0.5) / rows)));
+  }
+  painter.drawImage(QRectF(x, y, strip_width, height), image);
+  QPainterPath outline;
+  outline.addRect(QRectF(x, y, strip_width, height));
+  const auto tip_path = [&](double base, double point, const QColor& colour) {
+    QPainterPath path;
+    path.moveTo(x, base);
+    path.lineTo(x + strip_width / 2, point);
+    path.lineTo(x + strip_width, base);
+    path.closeSubpath();
+    painter.fillPath(path, colour);
+    outline.addPath(path);
+  };
+  if (scale.above.isValid()) tip_path(y, y - tip_height, scale.above);
+  if (scale.below.isValid()) tip_path(y + height, y + height + tip_height, scale.below);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(look.faint, 1.0));
+  painter.drawPath(outline);
+}
+
 /// Returns the panel's rectangle; null where there is no room.
 QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay) {
   const ViewField& field = *overlay.field;
   const ColourScale& scale = field.scale;
   const bool undefined = overlay.field_has_undefined;
-  constexpr double strip = 18.0;
-  constexpr double tip = 12.0;
   const double line = QFontMetricsF(look.font).height();
-  const double top =
-      (scale.above.isValid() ? tip : 0.0) + (field.read_as_radius ? 2 * line + 12 : line + 10);
-  const double bottom = (scale.below.isValid() ? tip : 0.0) + (undefined ? line + 12 : 4);
+  const double top = (scale.above.isValid() ? tip_height : 0.0) +
+                     (field.read_as_radius ? 2 * line + 12 : line + 10);
+  const double bottom = (scale.below.isValid() ? tip_height : 0.0) + (undefined ? line + 12 : 4);
   const double room = size.height() - 2 * margin - 2 * padding - top - bottom;
   const double height = std::min(room, std::clamp(0.5 * size.height(), 120.0, 340.0));
   if (height < 70.0) return {};
@@ -147,8 +180,9 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
     radii_width = std::max(radii_width, text_width(look.font, radius_title)) + 16.0;
   }
   double inner =
-      std::max(strip + 10.0 + values_width + radii_width, text_width(look.bold, field.title));
-  if (undefined) inner = std::max(inner, strip + 10.0 + text_width(look.font, undefined_text));
+      std::max(strip_width + 10.0 + values_width + radii_width, text_width(look.bold, field.title));
+  if (undefined)
+    inner = std::max(inner, strip_width + 10.0 + text_width(look.font, undefined_text));
   const QRectF panel(size.width() - margin - inner - 2 * padding, margin, inner + 2 * padding,
                      height + top + bottom + 2 * padding);
   if (panel.left() < margin) return {};
@@ -158,44 +192,17 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
   const double y = panel.top() + padding + top;
   paint_text(painter, look.bold, look.text, {x, panel.top() + padding, inner, line},
              Qt::AlignLeft | Qt::AlignVCenter, field.title);
-  const double values_x = x + strip + 10.0;
+  const double values_x = x + strip_width + 10.0;
   if (field.read_as_radius) {
     paint_text(painter, look.font, look.faint, {x, panel.top() + padding + line + 2, inner, line},
                Qt::AlignRight | Qt::AlignVCenter, radius_title);
   }
 
-  // Row by row of the device, so that the strip is as fine as the surface.
-  const int rows = static_cast<int>(std::ceil(height * painter.transform().m22()));
-  QImage image(1, rows, QImage::Format_RGB32);
-  ColourScale plain;
-  plain.map = scale.map;
-  plain.reversed = scale.reversed;
-  plain.bands = scale.bands;
-  for (int row = 0; row < rows; ++row) {
-    image.setPixelColor(0, row, to_colour(plain.colour(1.0 - (row + 0.5) / rows)));
-  }
-  painter.drawImage(QRectF(x, y, strip, height), image);
-  QPainterPath outline;
-  outline.addRect(QRectF(x, y, strip, height));
-  const auto tip_path = [&](double base, double point, const QColor& colour) {
-    QPainterPath path;
-    path.moveTo(x, base);
-    path.lineTo(x + strip / 2, point);
-    path.lineTo(x + strip, base);
-    path.closeSubpath();
-    painter.fillPath(path, colour);
-    outline.addPath(path);
-  };
-  if (scale.above.isValid()) tip_path(y, y - tip, scale.above);
-  if (scale.below.isValid()) tip_path(y + height, y + height + tip, scale.below);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(look.faint, 1.0));
-  painter.drawPath(outline);
-
+  paint_strip(painter, look, scale, x, y, height);
   for (const Tick& tick : ticks) {
     const double at = y + (1.0 - tick.position) * height;
     painter.setPen(QPen(look.faint, 1.0));
-    painter.drawLine(QPointF(x + strip, at), QPointF(x + strip + 5.0, at));
+    painter.drawLine(QPointF(x + strip_width, at), QPointF(x + strip_width + 5.0, at));
     paint_text(painter, look.font, look.text, {values_x, at - line / 2, values_width, line},
                Qt::AlignLeft | Qt::AlignVCenter, tick.value);
     if (!tick.radius.isEmpty()) {
@@ -205,7 +212,7 @@ QRectF paint_scalar_bar(QPainter& painter, const Look& look, QSizeF size, const 
   }
   if (undefined) {
     const double at = panel.bottom() - padding - line;
-    paint_undefined(painter, look, QRectF(x, at + 2, strip, line - 4), scale.undefined);
+    paint_undefined(painter, look, QRectF(x, at + 2, strip_width, line - 4), scale.undefined);
     paint_text(painter, look.font, look.text, {values_x, at, inner, line},
                Qt::AlignLeft | Qt::AlignVCenter, undefined_text);
   }
@@ -313,21 +320,29 @@ QRectF paint_line_legend(QPainter& painter, const Look& look, QSizeF size, const
 }
 
 /// Between the orientation marker and the scale bar where it fits there, else above them.
-void paint_hint(QPainter& painter, const Look& look, QSizeF size, const QString& hint) {
+void paint_hint(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay) {
   constexpr double left = 116.0, right = 196.0;  // that marker and scale bar may take
   const double line = QFontMetricsF(look.font).height();
   const double most = size.width() - 2 * margin - 2 * padding;
-  const QString text = QFontMetricsF(look.font).elidedText(hint, Qt::ElideRight, most);
-  const double width = text_width(look.font, text) + 2 * padding;
-  const double height = line + 12.0;
+  QStringList lines = overlay.hint.split('\n');
+  double widest = 0.0;
+  for (QString& text : lines) {
+    text = QFontMetricsF(look.font).elidedText(text, Qt::ElideRight, most);
+    widest = std::max(widest, text_width(look.font, text));
+  }
+  const double width = widest + 2 * padding;
+  const double height = line * static_cast<double>(lines.size()) + 12.0;
   const bool between = width <= size.width() - left - right;
   const double middle = (size.width() - width) / 2;
   const double x =
       between ? std::clamp(middle, left, size.width() - right - width) : std::max(middle, margin);
-  const QRectF panel(x, size.height() - margin - height - (between ? 0.0 : 88.0), width, height);
+  const bool free = between || (!overlay.orientation_marker && !overlay.scale_bar);
+  const QRectF panel(x, size.height() - margin - height - (free ? 0.0 : 88.0), width, height);
   if (panel.top() < margin) return;
   paint_panel(painter, look, panel);
-  paint_text(painter, look.font, look.text, panel, Qt::AlignCenter, text);
+  for (int k = 0; k < lines.size(); ++k)
+    paint_text(painter, look.font, look.text, {x, panel.top() + 6.0 + k * line, width, line},
+               Qt::AlignCenter, lines[k]);
 }
 
 void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
@@ -506,7 +521,7 @@ void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
   if (overlay.scale_bar) {
     paint_scale_bar(painter, look, size, overlay, bar.adjusted(0.0, 0.0, 0.0, 6.0));
   }
-  if (!overlay.hint.isEmpty()) paint_hint(painter, look, size, overlay.hint);
+  if (!overlay.hint.isEmpty()) paint_hint(painter, look, size, overlay);
 }
 
 }  // namespace arris::ui

@@ -21,9 +21,9 @@ struct Overlay {
   std::set<LineType> line_types;  ///< In the legend.
   bool scale_bar = true;
   bool orientation_marker = true;
-  QString hint;                           ///< One line at the bottom: what the tool does.
-  double units_per_pixel = 1.0;           ///< Mesh unit per pixel of the painter.
-  LengthUnit unit = LengthUnit::unknown;  ///< What lengths are told in.
+  QString hint;  ///< Lines at the bottom: what the tool does, the caption of a picture.
+  double units_per_pixel = 1.0;                        ///< Mesh unit per pixel of the painter.
+  LengthUnit unit = LengthUnit::unknown;               ///< What lengths are told in.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< See ViewCamera::axes().
   bool operator==(const Overlay&) const = default;
 };

@@ -124,6 +124,8 @@ ElementsPresenter::ElementsPresenter(Session* session, MeshView* view, Tables ta
       tables_(tables),
       surfaces_work_(this),
       scan_work_(this) {
+  for (ElementTable* table : {tables.lines, tables.partitions, tables.boundaries})
+    connect(table, &ElementTable::context_menu_wanted, this, &ElementsPresenter::table_menu_wanted);
   connect(session_, &Session::changed, this, [this] { refresh(); });
   connect(view_, &MeshView::clicked, this, &ElementsPresenter::clicked);
   connect(view_, &MeshView::banded, this, &ElementsPresenter::banded);

@@ -67,6 +67,8 @@ class ElementsPresenter : public QObject {
   static ElementTable* make_boundaries_table(QWidget* parent);
 
  signals:
+  /// On the rows that are selected in a table.
+  void table_menu_wanted(const QPoint& global);
   /// By the user, in the view or a table.
   void selection_changed();
   void partitions_shown_changed();

@@ -9,6 +9,7 @@
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
@@ -61,15 +62,27 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
   keep_proportion_ = new QCheckBox(tr("Proportion of the view"), this);
   keep_proportion_->setChecked(true);
   scalar_bar_ = new QCheckBox(tr("Scalar bar"), this);
-  scalar_bar_->setChecked(options.scalar_bar);
   scale_bar_ = new QCheckBox(tr("Scale bar"), this);
-  scale_bar_->setChecked(options.scale_bar);
   marker_ = new QCheckBox(tr("Orientation marker"), this);
-  marker_->setChecked(options.orientation_marker);
+  legend_ = new QCheckBox(tr("Legend of the lines"), this);
+  titled_ = new QCheckBox(tr("Title"), this);
+  titled_->setObjectName("picture_titled");
+  title_ = new QLineEdit(part.title, this);
+  title_->setObjectName("picture_title");
+  thresholds_ = new QCheckBox(tr("Thresholds"), this);
+  thresholds_->setObjectName("picture_thresholds");
+  thresholds_->setEnabled(!part.thresholds.isEmpty());
+  thresholds_->setToolTip(part.thresholds.isEmpty() ? tr("Nothing was found yet.")
+                                                    : part.thresholds);
+  for (const auto& [key, box] : contents())
+    box->setChecked(settings.value(key, box != titled_ && box != thresholds_).toBool());
+  title_->setEnabled(titled_->isChecked());
+  connect(titled_, &QCheckBox::toggled, title_, &QWidget::setEnabled);
   background_ = new QComboBox(this);
   background_->addItem(tr("White"), QColor(Qt::white));
   background_->addItem(tr("Transparent"), QColor(Qt::transparent));
   background_->addItem(tr("Dark"), QColor(38, 40, 44));
+  background_->setCurrentIndex(settings.value("pictures/ground", 0).toInt());
   form->addRow(tr("Size in"), unit_);
   form->addRow(tr("Width"), width_);
   form->addRow(tr("Height"), height_);
@@ -81,6 +94,9 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
   form->addRow(QString(), scalar_bar_);
   form->addRow(QString(), scale_bar_);
   form->addRow(QString(), marker_);
+  form->addRow(QString(), legend_);
+  form->addRow(titled_, title_);
+  form->addRow(QString(), thresholds_);
   each_view_ = new QCheckBox(tr("One for each named view"), this);
   each_view_->setObjectName("each_view");
   each_view_->setEnabled(part.named_views);
@@ -175,14 +191,28 @@ PictureOptions PictureDialog::options() const {
   options.scalar_bar = scalar_bar_->isChecked();
   options.scale_bar = scale_bar_->isChecked();
   options.orientation_marker = marker_->isChecked();
+  options.legend = legend_->isChecked();
+  QStringList caption;
+  if (titled_->isChecked() && !title_->text().trimmed().isEmpty())
+    caption << title_->text().trimmed();
+  if (thresholds_->isChecked() && !part_.thresholds.isEmpty()) caption << part_.thresholds;
+  options.caption = caption.join('\n');
   options.background = background_->currentData().value<QColor>();
   return options;
 }
 
 bool PictureDialog::each_view() const { return each_view_->isChecked(); }
 
+std::vector<std::pair<QString, QCheckBox*>> PictureDialog::contents() const {
+  return {{"pictures/scalar_bar", scalar_bar_}, {"pictures/scale_bar", scale_bar_},
+          {"pictures/marker", marker_},         {"pictures/legend", legend_},
+          {"pictures/titled", titled_},         {"pictures/thresholds", thresholds_}};
+}
+
 void PictureDialog::accept() {
   QSettings settings;
+  for (const auto& [key, box] : contents()) settings.setValue(key, box->isChecked());
+  settings.setValue("pictures/ground", background_->currentIndex());
   settings.setValue("pictures/millimetres", in_millimetres());
   settings.setValue("pictures/dots", dots_->value());
   QDialog::accept();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <QDialog>
 
 #include "ui/view/mesh_view.h"
@@ -8,12 +11,14 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
+class QLineEdit;
 class QSpinBox;
 
 namespace arris::ui {
 
 /// Asks for size and contents of a picture before it is saved: in pixels, or in millimetres of
-/// paper at so many dots per inch, and then also to scale. What was chosen is remembered.
+/// paper at so many dots per inch, and then also to scale; under it a title and the thresholds.
+/// What was chosen is remembered, from one start to the next but for the title.
 class PictureDialog : public QDialog {
   Q_OBJECT
  public:
@@ -21,7 +26,9 @@ class PictureDialog : public QDialog {
     QSize view_size;           ///< The width follows the height in its proportion.
     bool named_views = false;  ///< There are some to make pictures of.
     double millimetres =
-        0.0;  ///< Of one unit of the part; 0: not known, so that there is no scale.
+        0.0;             ///< Of one unit of the part; 0: not known, so that there is no scale.
+    QString title;       ///< What it is called.
+    QString thresholds;  ///< What its lines and partitions were found with; empty: not found.
   };
   /// Opens with `options`.
   PictureDialog(const PictureOptions& options, const Part& part, QWidget* parent);
@@ -31,6 +38,8 @@ class PictureDialog : public QDialog {
   void accept() override;
 
  private:
+  /// What is in the picture or not, by the key under which that is remembered.
+  std::vector<std::pair<QString, QCheckBox*>> contents() const;
   bool in_millimetres() const;
   double dots_per_millimetre() const;
   /// Sizes in the unit that is chosen now.
@@ -49,6 +58,10 @@ class PictureDialog : public QDialog {
   QCheckBox* scalar_bar_;
   QCheckBox* scale_bar_;
   QCheckBox* marker_;
+  QCheckBox* legend_;
+  QCheckBox* titled_;
+  QLineEdit* title_;
+  QCheckBox* thresholds_;
   QComboBox* background_;
   QCheckBox* each_view_;
   bool were_millimetres_ = false;

@@ -67,6 +67,12 @@ nlohmann::json Session::current_parameters(const std::string& step) const {
   return defaults_[step] = parameters;
 }
 
+void Session::tell_changed(bool other_mesh) {
+  if (other_mesh) emit mesh_changed();
+  emit surface_changed();
+  emit changed(other_mesh);
+}
+
 Context Session::context_of_work() {
   const auto told = std::make_shared<std::atomic<Clock::rep>>(0);
   return Context(
@@ -136,7 +142,7 @@ void Session::show(ShownDocument wanted) {
   current_ = std::move(wanted);
   defaults_.clear();
   previewed_ = nullptr;
-  emit changed(before != current_.document.mesh);
+  tell_changed(before != current_.document.mesh);
 }
 
 void Session::finish_work() {
@@ -643,7 +649,7 @@ void Session::start_preview() {
                  const MeshPtr before = shown().document.mesh;
                  previewed_ = std::make_shared<const ShownDocument>(std::move(outcome.shown));
                  preview_result_ = PreviewResult{operation, std::move(*outcome.performed)};
-                 emit changed(before != shown().document.mesh);
+                 tell_changed(before != shown().document.mesh);
                } else if (round == preview_round_ && !wanted_preview_) {
                  drop_preview();
                  emit preview_refused(QString::fromStdString(outcome.performed.error().message));
@@ -692,7 +698,7 @@ void Session::drop_preview() {
   if (!previewed_) return;
   const MeshPtr before = previewed_->document.mesh;
   previewed_ = nullptr;
-  emit changed(before != current_.document.mesh);
+  tell_changed(before != current_.document.mesh);
 }
 
 }  // namespace arris::ui

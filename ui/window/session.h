@@ -131,7 +131,10 @@ class Session : public QObject {
   void cancel_preview();
 
  signals:
-  /// Another document is current, or shown. `other_mesh`: its mesh is another one than before.
+  /// Another document is current, or shown: who holds its mesh takes it first, where that is
+  /// another one than before, then who colours it, then who shows what is on it.
+  void mesh_changed();
+  void surface_changed();
   void changed(bool other_mesh);
   /// A file was opened (after changed()).
   void opened();
@@ -153,6 +156,7 @@ class Session : public QObject {
   void failed(const QString& message);
 
  private:
+  void tell_changed(bool other_mesh);
   /// As it is to be run: finding does corrections again, or not.
   Operation as_wanted(Operation operation) const;
   /// What an operation gave.

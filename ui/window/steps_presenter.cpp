@@ -70,6 +70,8 @@ StepParameter editor_of(const Parameter& parameter, const Document& document) {
   editor.key = shown_text(parameter.name);
   editor.label = shown_text(parameter.label);
   editor.tooltip = shown_text(parameter.help);
+  if (const std::string_view from = parameter.otherwise.from(); !from.empty())
+    editor.tooltip += StepsPresenter::tr(" By default: %1.").arg(shown_text(from));
   editor.least = parameter.least;
   editor.most = parameter.most;
   editor.decimals = 3;

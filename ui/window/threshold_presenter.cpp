@@ -79,6 +79,72 @@ Operation ThresholdPresenter::operation_for(const Target& target, double value) 
   return {"find_partitions", parameters};
 }
 
+void ThresholdPresenter::add_sharp_angle(std::vector<ThresholdHandle>& handles,
+                                         std::vector<Target>& targets) const {
+  const Field field = fields_->field();
+  const Field of_lines = line_field(*session_);
+  if (field != of_lines && (of_lines != Field::ihe || field != Field::ikabs)) return;
+  const double angle = session_->parameters("find_sharp_lines")["angle"];
+  ThresholdHandle handle;
+  if (field == of_lines) {
+    handle.name = "TV_IH";
+    handle.value = angle;
+    handle.least = least_angle;
+    handle.most = most_angle;
+    if (field == Field::ihe)
+      handle.reading = [](double degrees) { return "TV_IK " + number(ikabs_of_angle(degrees)); };
+    targets.push_back({Target::Kind::sharp_angle});
+  } else {
+    handle.name = "TV_IK";
+    handle.value = ikabs_of_angle(angle);
+    handle.least = ikabs_of_angle(least_angle);
+    handle.most = ikabs_of_angle(most_angle);
+    handle.reading = [](double ikabs) { return "TV_IH " + number(angle_of_ikabs(ikabs)) + "°"; };
+    targets.push_back({Target::Kind::sharp_ikabs});
+  }
+  handle.tooltip =
+      tr("Sharp lines are looked for above this threshold. Drag it: the lines follow.");
+  handles.push_back(handle);
+}
+
+void ThresholdPresenter::add_interval_bounds(std::vector<ThresholdHandle>& handles,
+                                             std::vector<Target>& targets) const {
+  const Field field = fields_->field();
+  if (field != Field::kabs && field != Field::ikabs) return;
+  const nlohmann::json partitions = session_->parameters("find_partitions");
+  const Document& document = session_->shown().document;
+  if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs") ||
+      (document.step("find_partitions") &&
+       document.partition_method() == PartitionMethod::surfaces) ||
+      !partitions.contains("intervals"))
+    return;
+  std::set<double> lower, upper;
+  for (const auto& interval : partitions["intervals"]) {
+    if (interval[0].get<double>() > 0.0) lower.insert(interval[0].get<double>());
+    if (interval[1].is_number()) upper.insert(interval[1].get<double>());
+  }
+  std::set<double> bounds = lower;
+  bounds.insert(upper.begin(), upper.end());
+  for (const double bound : bounds) {
+    ThresholdHandle handle;
+    const bool is_max = upper.contains(bound), is_min = lower.contains(bound);
+    handle.name = is_max && is_min ? "Kmax, Kmin" : is_max ? "Kmax" : "Kmin";
+    handle.value = bound;
+    const Distribution& distribution = fields_->distribution();
+    handle.most = std::max(distribution.max(), bound * 1.01);
+    handle.least = std::min(handle.most * 1e-7, bound);
+    if (field == Field::kabs)
+      handle.reading = [suffix = unit_suffix(session_->shown().document)](double kabs) {
+        return "r = " + number(cylinder_radius(kabs)) + suffix;
+      };
+    handle.tooltip =
+        tr("End of a curvature interval: partitions take faces whose vertices lie between Kmin "
+           "and Kmax. Drag it: the partitions follow.");
+    handles.push_back(handle);
+    targets.push_back({Target::Kind::interval_bound, bound});
+  }
+}
+
 void ThresholdPresenter::refresh() {
   if (session_->shown().document.empty()) {
     targets_.clear();
@@ -87,67 +153,8 @@ void ThresholdPresenter::refresh() {
   }
   std::vector<ThresholdHandle> handles;
   std::vector<Target> targets;
-  const Field field = fields_->field();
-  const Field of_lines = line_field(*session_);
-  if (field == of_lines || (of_lines == Field::ihe && field == Field::ikabs)) {
-    const double angle = session_->parameters("find_sharp_lines")["angle"];
-    ThresholdHandle handle;
-    if (field == of_lines) {
-      handle.name = "TV_IH";
-      handle.value = angle;
-      handle.least = least_angle;
-      handle.most = most_angle;
-      if (field == Field::ihe)
-        handle.reading = [](double degrees) { return "TV_IK " + number(ikabs_of_angle(degrees)); };
-      targets.push_back({Target::Kind::sharp_angle});
-    } else {
-      handle.name = "TV_IK";
-      handle.value = ikabs_of_angle(angle);
-      handle.least = ikabs_of_angle(least_angle);
-      handle.most = ikabs_of_angle(most_angle);
-      handle.reading = [](double ikabs) { return "TV_IH " + number(angle_of_ikabs(ikabs)) + "°"; };
-      targets.push_back({Target::Kind::sharp_ikabs});
-    }
-    handle.tooltip =
-        tr("Sharp lines are looked for above this threshold. Drag it: the lines follow.");
-    handles.push_back(handle);
-  }
-  nlohmann::json partitions;
-  if (field == Field::kabs || field == Field::ikabs) {
-    partitions = session_->parameters("find_partitions");
-    const Document& document = session_->shown().document;
-    if (partitions["criterion"] != (field == Field::kabs ? "kabs" : "ikabs") ||
-        (document.step("find_partitions") &&
-         document.partition_method() == PartitionMethod::surfaces))
-      partitions = {};
-  }
-  if (partitions.contains("intervals")) {
-    std::set<double> lower, upper;
-    for (const auto& interval : partitions["intervals"]) {
-      if (interval[0].get<double>() > 0.0) lower.insert(interval[0].get<double>());
-      if (interval[1].is_number()) upper.insert(interval[1].get<double>());
-    }
-    std::set<double> bounds = lower;
-    bounds.insert(upper.begin(), upper.end());
-    for (const double bound : bounds) {
-      ThresholdHandle handle;
-      const bool is_max = upper.contains(bound), is_min = lower.contains(bound);
-      handle.name = is_max && is_min ? "Kmax, Kmin" : is_max ? "Kmax" : "Kmin";
-      handle.value = bound;
-      const Distribution& distribution = fields_->distribution();
-      handle.most = std::max(distribution.max(), bound * 1.01);
-      handle.least = std::min(handle.most * 1e-7, bound);
-      if (field == Field::kabs)
-        handle.reading = [suffix = unit_suffix(session_->shown().document)](double kabs) {
-          return "r = " + number(cylinder_radius(kabs)) + suffix;
-        };
-      handle.tooltip =
-          tr("End of a curvature interval: partitions take faces whose vertices lie between Kmin "
-             "and Kmax. Drag it: the partitions follow.");
-      handles.push_back(handle);
-      targets.push_back({Target::Kind::interval_bound, bound});
-    }
-  }
+  add_sharp_angle(handles, targets);
+  add_interval_bounds(handles, targets);
   // During a drag operations go on from the document at mouse down, where the bound had its old
   // value; and the handles stay what they are, even where two bounds meet for a moment.
   if (dragging_) {

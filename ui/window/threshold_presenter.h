@@ -32,6 +32,9 @@ class ThresholdPresenter : public QObject {
     enum class Kind { sharp_angle, sharp_ikabs, interval_bound } kind;
     double bound = 0.0;  // interval_bound: the value at mouse down
   };
+  void add_sharp_angle(std::vector<ThresholdHandle>& handles, std::vector<Target>& targets) const;
+  void add_interval_bounds(std::vector<ThresholdHandle>& handles,
+                           std::vector<Target>& targets) const;
   Operation operation_for(const Target& target, double value) const;
 
   Session* session_;

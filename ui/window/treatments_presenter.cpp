@@ -184,14 +184,16 @@ void TreatmentsPresenter::add_line_actions(QMenu* menu) {
   add(menu, line_actions_, tr("Recompute in a &brushed region…"), "Shift+Q",
       tr("Brush over the part: lines inside are found again under an angle of their own"), part,
       [this] {
-        brush(tr("Brush where lines are to be found again"), [this](json region) {
-          tune(
-              tr("Recompute lines in the region"),
-              [this, region] {
-                return Operation{"recompute_lines", {{"region", region}, {"angle", bar_->value()}}};
-              },
-              number_of("recompute_lines", "angle", angle_in_force()));
-        });
+        brush("recompute_lines", tr("Brush where lines are to be found again"),
+              [this](json region) {
+                tune(
+                    tr("Recompute lines in the region"),
+                    [this, region] {
+                      return Operation{"recompute_lines",
+                                       {{"region", region}, {"angle", bar_->value()}}};
+                    },
+                    number_of("recompute_lines", "angle", angle_in_force()));
+              });
       });
   menu->addSeparator();
   add(
@@ -257,15 +259,16 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
   add(menu, partition_actions_, tr("Paint &into"), "Shift+P",
       tr("Brushed faces join the selected partition; the brush stops at sharp lines"),
       partitions(1, 1), [this] {
-        brush(tr("Paint faces into partition %1").arg(*one_partition()), [this](json region) {
-          const auto id = one_partition();
-          if (!id) return;
-          run_now({"paint_partition", {{"partition", *id}, {"region", region}}});
-        });
+        brush("paint_partition", tr("Paint faces into partition %1").arg(*one_partition()),
+              [this](json region) {
+                const auto id = one_partition();
+                if (!id) return;
+                run_now({"paint_partition", {{"partition", *id}, {"region", region}}});
+              });
       });
   add(menu, partition_actions_, tr("Paint &out"), "Shift+U",
       tr("Brushed faces belong to no partition any more"), found, [this] {
-        brush(tr("Paint faces out of their partitions"), [this](json region) {
+        brush("paint_partition", tr("Paint faces out of their partitions"), [this](json region) {
           run_now({"paint_partition", {{"partition", 0u}, {"region", region}}});
         });
       });
@@ -274,15 +277,16 @@ void TreatmentsPresenter::add_partition_actions(QMenu* menu) {
       tr("Brush over the part: partitions inside are found again under an interval of their own"),
       [this] { return needs_part(); },
       [this] {
-        brush(tr("Brush where partitions are to be found again"), [this](json region) {
-          tune(
-              tr("Partitions in the region up to Kmax"),
-              [this, region] {
-                return Operation{"recompute_partitions",
-                                 {{"region", region}, {"interval", {0.0, bar_->value()}}}};
-              },
-              curvature_number(0.0));
-        });
+        brush("recompute_partitions", tr("Brush where partitions are to be found again"),
+              [this](json region) {
+                tune(
+                    tr("Partitions in the region up to Kmax"),
+                    [this, region] {
+                      return Operation{"recompute_partitions",
+                                       {{"region", region}, {"interval", {0.0, bar_->value()}}}};
+                    },
+                    curvature_number(0.0));
+              });
       });
   menu->addSeparator();
   add(menu, partition_actions_, tr("&Smooth boundaries"), "Shift+B",
@@ -430,6 +434,7 @@ void TreatmentsPresenter::tune(const QString& name, std::function<Operation()> o
                                const std::optional<TreatmentBar::Choice>& choice) {
   running_ = std::move(operation);
   bar_->show_treatment(name, number ? &*number : nullptr, choice ? &*choice : nullptr);
+  in_use_ = QString::fromStdString(running_().name);
   bar_->show();
   for (QShortcut* key : {accept_key_, cancel_key_}) key->setEnabled(true);
   preview();
@@ -451,6 +456,7 @@ void TreatmentsPresenter::accept() {
 void TreatmentsPresenter::stop() {
   const bool had_preview = running_ || path_preview_ || grabbed_line_ != 0;
   running_ = nullptr;
+  in_use_.clear();
   on_point_ = nullptr;
   path_preview_ = nullptr;
   on_path_done_ = nullptr;
@@ -463,6 +469,11 @@ void TreatmentsPresenter::stop() {
   if (had_preview && session_->is_previewing()) session_->cancel_preview();
   if (view_->tool() != Tool::select) view_->set_tool(Tool::select);
   refresh();
+}
+
+void TreatmentsPresenter::use(const char* operation) {
+  stop();
+  in_use_ = operation;
 }
 
 void TreatmentsPresenter::show_result() {
@@ -532,7 +543,7 @@ void TreatmentsPresenter::merge() {
 }
 
 void TreatmentsPresenter::draw() {
-  stop();
+  use("draw_line");
   path_preview_ = [this](VertexId v) {
     std::vector<VertexId> points = points_;
     points.push_back(v);
@@ -564,7 +575,7 @@ void TreatmentsPresenter::show_points() {
 
 void TreatmentsPresenter::trim() {
   const std::uint32_t id = *one_line();
-  stop();
+  use("trim_line");
   on_point_ = [this, id](const Pick& pick) {
     const Document& document = session_->current().document;
     const Line* line = document.lines.find(id);
@@ -590,7 +601,7 @@ void TreatmentsPresenter::trim() {
 
 void TreatmentsPresenter::split_line() {
   const std::uint32_t id = *one_line();
-  stop();
+  use("split_line");
   on_point_ = [this, id](const Pick& pick) {
     const Document& document = session_->current().document;
     const Line* line = document.lines.find(id);
@@ -602,7 +613,7 @@ void TreatmentsPresenter::split_line() {
 }
 
 void TreatmentsPresenter::reroute() {
-  stop();
+  use("reroute_line");
   view_->set_tool(Tool::move_point,
                   tr("Drag a point of a line to where it is to run. Esc leaves."));
 }
@@ -623,9 +634,10 @@ void TreatmentsPresenter::lock(bool locked) {
        {{"lines", selected_lines()}, {"partitions", selected_partitions()}, {"locked", locked}}});
 }
 
-void TreatmentsPresenter::brush(const QString& hint, std::function<void(json)> use) {
-  stop();
-  on_brushed_ = std::move(use);
+void TreatmentsPresenter::brush(const char* operation, const QString& hint,
+                                std::function<void(json)> take) {
+  use(operation);
+  on_brushed_ = std::move(take);
   view_->set_tool(Tool::brush, hint + tr(". [ and ] change its size."));
 }
 
@@ -682,7 +694,7 @@ void TreatmentsPresenter::restart_partitions() {
 
 void TreatmentsPresenter::split_partition() {
   const std::uint32_t id = *one_partition();
-  stop();
+  use("split_partition");
   on_point_ = [this](const Pick& pick) { add_point(pick); };
   on_path_done_ = [this, id] {
     if (points_.size() < 2) return;

@@ -32,8 +32,8 @@ class TreatmentsPresenter : public QObject {
   QList<QAction*> available_line_actions() const { return available(line_actions_); }
   QList<QAction*> available_partition_actions() const { return available(partition_actions_); }
 
- signals:
-  void message(const QString& text);
+  /// The operation that is being tuned, or that a tool in the view is for; empty: none.
+  const QString& operation_in_use() const { return in_use_; }
 
  private:
   struct Entry {
@@ -75,8 +75,11 @@ class TreatmentsPresenter : public QObject {
   void remove_small();
   void fill_unassigned();
   void lock(bool locked);
-  /// The next brush stroke goes to `use`.
-  void brush(const QString& hint, std::function<void(nlohmann::json region)> use);
+  /// A tool in the view for an operation begins.
+  void use(const char* operation);
+  /// The same with the brush: its next stroke goes to `take`.
+  void brush(const char* operation, const QString& hint,
+             std::function<void(nlohmann::json region)> take);
 
   double angle_in_force() const;
   std::optional<std::uint32_t> one_line() const;
@@ -95,6 +98,7 @@ class TreatmentsPresenter : public QObject {
   TreatmentBar* bar_;
   std::vector<Entry> line_actions_, partition_actions_;
   std::function<Operation()> running_;  // what is being tuned, with the values of the bar
+  QString in_use_;                      // its name, or that of what a tool is for
   QShortcut *accept_key_, *cancel_key_;
   // Tools.
   std::vector<VertexId> points_;                     // of the path
