@@ -22,7 +22,7 @@ namespace arris::ui {
 
 namespace {
 
-/// "Find sharp lines, 27° (11 lines, 886 mm) · Find partitions, detail 1 (22 partitions, …)"
+/// A line for each step: "Find sharp lines, 27° (11 lines, 886 mm)".
 QString thresholds_of(const Document& document) {
   QStringList steps;
   for (std::size_t k = 0; k < chain_steps.size(); ++k) {
@@ -32,7 +32,7 @@ QString thresholds_of(const Document& document) {
     steps << QString::fromStdString(describe({name, step->parameters}) + " (" +
                                     find_operation(name)->outcome(document) + ")");
   }
-  return steps.join(QStringLiteral(" · "));
+  return steps.join('\n');
 }
 
 }  // namespace
