@@ -157,20 +157,24 @@ struct SegmentOptions {
                                "flow does: add --flow paper");
   }
 
-  /// Options count with one method; for partitions they choose it.
+  /// Options count with one method; for partitions they choose it where neither flow nor
+  /// --partitions does.
   void check_methods(StepParameters& wanted) const {
     for (const Operation& operation : operations_of(which_flow())) {
       const std::size_t place = place_in_chain(operation.name);
       const Parameter* parameter = find_operation(operation.name)->find("method");
       if (!parameter || !steps[place].first()) continue;
       nlohmann::json& own = wanted[operation.name];
-      const bool chooses = !parameter->otherwise.from().empty();
-      const std::string usual =
-          operation.parameters.value("method", chooses ? "surfaces" : "normal_jump");
-      const auto stray = steps[place].stray(own.value("method", usual));
-      if (stray && chooses && !own.contains("method"))
+      const bool chooses = !parameter->otherwise.from().empty() &&
+                           !operation.parameters.contains("method") && !own.contains("method");
+      const std::string usual(parameter->choices.front().key);
+      auto stray =
+          steps[place].stray(own.value("method", operation.parameters.value("method", usual)));
+      if (stray && chooses) {
         own["method"] = stray->method;
-      else if (stray)
+        stray = steps[place].stray(stray->method);
+      }
+      if (stray)
         throw CLI::ValidationError(stray->option->get_name(),
                                    "it counts with another method only: add --" +
                                        std::string(parameter->option) + " " +

@@ -16,7 +16,7 @@ std::string value_in_words(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// "A number from 0.1 to 179.9 (°); by default: by the noise of the scan."
+/// "A number from 0.1 to 179.9 (°); by default: from the noise of the scan."
 std::string form_in_words(const Parameter& parameter) {
   std::string text = form_of(parameter);
   if (!parameter.unit.empty())

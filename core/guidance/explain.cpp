@@ -8,7 +8,7 @@
 #include <unordered_set>
 
 #include "core/base/words.h"
-#include "core/document/operations/chain.h"
+#include "core/document/operations/stages.h"
 #include "core/document/treatments/treatment.h"
 #include "core/guidance/explain_jump.h"
 #include "core/partitions/front_rule.h"

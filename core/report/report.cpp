@@ -260,7 +260,7 @@ class ReportMaker {
       text += "<tr>" + cell(what, false) + cell(value, false) + "</tr>\n";
     };
     row("File", name + " (" + report.format + ")");
-    row("Content", "SHA-256 " + report.content_hash);
+    row("Content", "XXH3 " + report.content_hash);
     row("Size", with_unit(size_in_words(size), unit));
     row("Mesh", counted(report.faces, "triangle", "triangles") + ", " +
                     counted(report.vertices, "vertex", "vertices") + ", " +

@@ -135,6 +135,11 @@ TEST_F(Cli, OptionsOfTheOtherFlowOrMethodAreRefusedInASentence) {
   EXPECT_NE(refused({"--flow", "paper", "--method", "normal_jump", "--candidates", "4"})
                 .find("--method walk"),
             std::string::npos);
+  EXPECT_NE(refused({"--criterion", "ikabs", "--detail", "2"}).find("--partitions surfaces"),
+            std::string::npos)
+      << "no method has both";
+  EXPECT_NE(refused({"--flow", "paper", "--detail", "2"}).find("--partitions surfaces"),
+            std::string::npos);
   EXPECT_NE(refused({"--no-prepare", "--flow", "paper"}).find("contradicts"), std::string::npos);
   refused({"--flow", "both"});
   refused({"--method", "magic"});

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/document/operations/chain.h"
+#include "core/document/operations/stages.h"
 #include "core/document/treatments/treatment.h"
 #include "core/guidance/stability.h"
 #include "ui/panels/controls.h"

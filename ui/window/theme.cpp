@@ -33,6 +33,8 @@ void set_theme(QApplication& application, bool dark) {
   for (const QPalette::ColorRole role :
        {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText})
     palette.setColor(QPalette::Disabled, role, faint);
+  // The style writes disabled entries of menus a second time in this, beside themselves.
+  palette.setColor(QPalette::Disabled, QPalette::Light, base);
   application.setPalette(palette);
 }
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/base/words.h"
-#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/operations/stages.h"
 #include "core/mesh/build_mesh.h"
 
 namespace arris {

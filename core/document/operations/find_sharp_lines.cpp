@@ -1,8 +1,8 @@
 #include "core/sharp_lines/sharp_lines.h"
 
 #include "core/base/words.h"
-#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/operations/stages.h"
 #include "core/document/treatments/treatment.h"
 
 namespace arris {
@@ -109,7 +109,7 @@ std::vector<OperationKind> find_lines_rows() {
        .unit = "°",
        .least = 0.1,
        .most = 179.9,
-       .otherwise = {"by the noise of the scan", sharp_angle_of_scan},
+       .otherwise = {"from the noise of the scan", sharp_angle_of_scan},
        .by_method = true,
        .option = "sharp-angle"}};
   const std::vector<Parameter> of_edges = kinds_of_edges();
@@ -122,7 +122,7 @@ std::vector<OperationKind> find_lines_rows() {
         .help = "Isolated lines shorter than this are removed; 0 keeps them.",
         .unit = unit_of_part,
         .most = longest_length,
-        .otherwise = {"by the length of the scan's edges", length_of_noise},
+        .otherwise = {"from the length of the scan's edges", length_of_noise},
         .by_method = true,
         .option = "min-length"},
        {.name = "parallel_distance",
@@ -141,7 +141,7 @@ std::vector<OperationKind> find_lines_rows() {
         .help = "Loose ends with at most this distance between them are joined; 0 joins none.",
         .unit = unit_of_part,
         .most = longest_length,
-        .otherwise = {"by the length of the scan's edges", gap_of_noise},
+        .otherwise = {"from the length of the scan's edges", gap_of_noise},
         .by_method = true,
         .option = "bridge-gap"},
        {.name = "corrections",

@@ -1,5 +1,5 @@
-#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/operations/stages.h"
 
 #include <algorithm>
 #include <utility>

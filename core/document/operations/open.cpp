@@ -83,7 +83,7 @@ std::vector<OperationKind> open_rows() {
                           // Known only once the file is read; perform() adds it then.
                           {.name = "hash",
                            .kind = ParameterKind::text,
-                           .help = "SHA-256 of what it has to hold.",
+                           .help = "XXH3 (128 bits) of what it has to hold.",
                            .optional = true}},
            .words = words_of_open,
            .upgrade = upgrade_open}};

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "core/base/words.h"
-#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/operations/stages.h"
 #include "core/edge_swapping/equilateralize.h"
 #include "core/edge_swapping/swap_edges.h"
 #include "core/mesh/face_quality.h"
@@ -170,7 +170,7 @@ std::vector<OperationKind> preparation_rows() {
                      "no limit.",
              .unit = unit_of_part,
              .most = longest_length,
-             .otherwise = {"by the length of the scan's edges", edges_of_scan},
+             .otherwise = {"from the length of the scan's edges", edges_of_scan},
              .option = "max-edge"},
             {.name = "cost",
              .kind = ParameterKind::choice,

@@ -1,8 +1,8 @@
 #include "core/curvature_smoothing/smooth_curvature.h"
 #include "core/base/words.h"
 
-#include "core/document/operations/chain.h"
 #include "core/document/operations/operations.h"
+#include "core/document/operations/stages.h"
 
 namespace arris {
 

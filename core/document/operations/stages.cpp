@@ -1,4 +1,4 @@
-#include "core/document/operations/chain.h"
+#include "core/document/operations/stages.h"
 
 #include <utility>
 

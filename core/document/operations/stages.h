@@ -4,7 +4,7 @@
 #include "core/base/result.h"
 #include "core/document/document.h"
 
-/// The steps of figure 2 as a chain (document.md, rule 3), for the operations.
+/// From what a step of the chain starts, and what it leaves behind (document.md, rule 3).
 namespace arris {
 
 /// The output that `step` starts from: of the last step before it that has one.
