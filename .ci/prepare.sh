@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# Sourced by app/run and tests/run: installs what is missing and configures a Release build.
-# Gives: root (the repository), build (its build folder), configure [CMake arguments].
+# Sourced by app/run, tests/run and what checks: installs what is missing and configures builds.
+# Gives: root (the repository), build (its build folder), configure [CMake arguments], and of the
+# builds with sanitizers folder_for address|threads and configure_for address|threads.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
@@ -31,19 +32,17 @@ install_packages() {
   local missing
   mapfile -t missing < <(missing_packages)
   ((${#missing[@]})) || return 0
-  local as_root=()
-  if ((EUID != 0)); then
-    command -v sudo >/dev/null || {
-      echo "Missing: ${missing[*]}. Install them as root: apt-get install ${missing[*]}" >&2
-      exit 1
-    }
-    as_root=(sudo)
-  fi
+  ((EUID == 0)) || command -v sudo >/dev/null || {
+    echo "Missing: ${missing[*]}. Install them as root: apt-get install ${missing[*]}" >&2
+    exit 1
+  }
   echo "Installing ${missing[*]}"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
+
+as_root() { if ((EUID == 0)); then "$@"; else sudo "$@"; fi; }
 
 configure() {
   mkdir -p "$build"
@@ -51,6 +50,23 @@ configure() {
     >"$build/configure.log" 2>&1 || {
     cat "$build/configure.log" >&2
     exit 1
+  }
+}
+
+# By Clang: it has libFuzzer, and reads the code with other eyes. Its warnings are its own.
+folder_for() { echo "$build/$1"; }
+configure_for() {
+  local folder with=()
+  folder=$(folder_for "$1")
+  case $1 in
+    address) with=(-DARRIS_SANITIZE=ON -DARRIS_FUZZ=ON) ;;
+    threads) with=(-DARRIS_SANITIZE_THREAD=ON) ;;
+  esac
+  mkdir -p "$folder"
+  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang "${with[@]}" >"$folder/configure.log" 2>&1 || {
+    cat "$folder/configure.log" >&2
+    return 1
   }
 }
 

@@ -13,6 +13,9 @@ inline std::string number_text(double value, int digits = 6) {
   return {text, end};
 }
 
+/// Digits of coordinates and measures in files for other programs.
+inline constexpr int file_digits = 12;
+
 /// The same with `decimals` digits after the point.
 inline std::string fixed_text(double value, int decimals) {
   char text[400];

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <functional>
-#include <memory>
-#include <mutex>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "core/base/vector_state.h"
 
-/// What core/base/parallel.h gives, on plain std::threads: for the thread sanitizer (CMake option
-/// ARRIS_OWN_THREADS), which cannot follow Debian's oneTBB, since that is not instrumented. Slow,
-/// and in smaller pieces than a user's program, so that races come about on small meshes too.
+/// What core/base/parallel.h and its like give, on plain std::threads: for the thread sanitizer
+/// (CMake option ARRIS_OWN_THREADS), which cannot follow Debian's oneTBB, since that is not
+/// instrumented. Slow, and in smaller pieces than a user's program, so that races come about on
+/// small meshes too.
 namespace arris::own_threads {
 
 /// Threads at most, the caller's among them. More than most test machines have cores, so that the
@@ -40,12 +37,10 @@ void run(std::size_t count, const Work& work) {
   take();
 }
 
-template <class Body>
-void parallel_for(std::size_t count, const Body& body) {
+template <class Work>
+void for_ranges(std::size_t count, const Work& work) {
   const std::size_t pieces = std::min(count, 4 * limit.load());
-  run(pieces, [&](std::size_t k) {
-    for (std::size_t i = k * count / pieces; i < (k + 1) * count / pieces; ++i) body(i);
-  });
+  run(pieces, [&](std::size_t k) { work(k * count / pieces, (k + 1) * count / pieces); });
 }
 
 template <class Iterator, class Less>
@@ -59,22 +54,5 @@ void parallel_sort(Iterator first, Iterator last, const Less& less) {
   });
   for (std::ptrdiff_t k = 2; k <= pieces; ++k) std::inplace_merge(first, at(k - 1), at(k), less);
 }
-
-template <class T>
-class PerThread {
- public:
-  explicit PerThread(std::function<T()> make) : make_(std::move(make)) {}
-  T& local() {
-    const std::lock_guard lock(mutex_);
-    std::unique_ptr<T>& mine = of_[std::this_thread::get_id()];
-    if (!mine) mine = std::make_unique<T>(make_());
-    return *mine;
-  }
-
- private:
-  std::function<T()> make_;
-  std::mutex mutex_;
-  std::unordered_map<std::thread::id, std::unique_ptr<T>> of_;
-};
 
 }  // namespace arris::own_threads

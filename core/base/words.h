@@ -14,7 +14,7 @@ namespace arris {
 template <class Count>
 std::string grouped(Count count) {
   std::string text = std::to_string(count);
-  for (std::size_t k = text.size(); k > 3 && text[k - 4] != '-'; k -= 3) text.insert(k - 3, ",");
+  for (std::size_t k = text.size(); k > 3 && text[k - 4] != '-'; k -= 3) text.insert(k - 3, 1, ',');
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/base/watched_for.h"
 #include "core/mesh/geometry.h"
 

@@ -1,5 +1,5 @@
 #include "core/curvature/distribution.h"
-#include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 
 #include <algorithm>
 #include <cmath>

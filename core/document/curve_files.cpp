@@ -11,13 +11,11 @@ namespace arris {
 
 namespace {
 
-constexpr int digits = 12;
-
 std::string coordinates(const Point& p, std::string_view between) {
-  std::string text = number_text(p.x(), digits);
+  std::string text = number_text(p.x(), file_digits);
   for (const double value : {p.y(), p.z()}) {
     text += between;
-    text += number_text(value, digits);
+    text += number_text(value, file_digits);
   }
   return text;
 }
@@ -40,7 +38,7 @@ class Points {
 
 /// A real number of STEP has a decimal point.
 std::string step_real(double value) {
-  std::string text = number_text(value, digits);
+  std::string text = number_text(value, file_digits);
   const std::size_t exponent = text.find('e');
   if (text.find('.') == std::string::npos)
     text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
@@ -98,7 +96,7 @@ struct DxfText {
     text += "\n";
   }
   void put_point(const Point& p) {
-    for (int axis = 0; axis < 3; ++axis) put(10 * (axis + 1), number_text(p[axis], digits));
+    for (int axis = 0; axis < 3; ++axis) put(10 * (axis + 1), number_text(p[axis], file_digits));
   }
   void put_line_types();
   void put_layers(const std::vector<std::string_view>& layers);
@@ -281,7 +279,7 @@ std::string curves_vtp(const HandedCurves& curves) {
     text += curves.columns[k];
     text += "\">\n";
     for (const HandedCurve& curve : curves.curves)
-      text += number_text(curve.values[k], digits) + "\n";
+      text += number_text(curve.values[k], file_digits) + "\n";
     text += "</DataArray>\n";
   }
   text +=

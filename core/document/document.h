@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "core/base/json.h"
 #include "core/curvature/curvature.h"
 #include "core/document/chain.h"
 #include "core/document/corrections.h"

@@ -5,9 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/context.h"
+#include "core/base/json.h"
 #include "core/base/result.h"
 #include "core/document/parameters.h"
 

@@ -9,14 +9,12 @@ namespace arris {
 
 namespace {
 
-constexpr int digits = 12;
-
 void add_points(const Mesh& mesh, std::string_view before, std::string& text) {
   for (const Point& p : mesh.points()) {
     text += before;
     for (int axis = 0; axis < 3; ++axis) {
       if (axis > 0) text += ' ';
-      text += number_text(p[axis], digits);
+      text += number_text(p[axis], file_digits);
     }
     text += '\n';
   }

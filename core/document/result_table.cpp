@@ -15,8 +15,6 @@ namespace arris {
 
 namespace {
 
-constexpr int digits = 12;
-
 /// All columns there are.
 constexpr std::array known_columns{ResultColumn{"name", "", Measure::text},
                                    ResultColumn{"kind", "Kind", Measure::text},
@@ -118,7 +116,7 @@ std::string csv_of(const ResultTable& table) {
     add_row([&](std::size_t k) {
       const auto* word = std::get_if<std::string>(&row[k]);
       const auto* value = std::get_if<double>(&row[k]);
-      return word ? *word : value ? number_text(*value, digits) : std::string();
+      return word ? *word : value ? number_text(*value, file_digits) : std::string();
     });
   return text;
 }

@@ -97,7 +97,12 @@ Result<std::int64_t> check_format(Database& database) {
   Statement check(database, "PRAGMA quick_check(1)");
   const Result<bool> checked = check.step();
   if (!checked) return tl::unexpected<Error>(checked.error());
-  if (check.bytes(0) != "ok") return damaged(path, std::string(check.bytes(0)));
+  if (check.bytes(0) != "ok") {
+    // SQLite says where in lines, of which the last is the one that means something.
+    std::string found(check.bytes(0));
+    while (!found.empty() && (found.back() == '.' || found.back() == '\n')) found.pop_back();
+    return damaged(path, "its database is not sound (" + found.substr(found.rfind('\n') + 1) + ")");
+  }
 
   Result<Database> model = Database::in_memory();
   if (!model) return tl::unexpected<Error>(model.error());

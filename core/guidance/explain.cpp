@@ -19,8 +19,6 @@ namespace arris {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 std::string short_text(double value) { return number_text(value, 3); }
 constexpr const char* corrected_away = "the step finds it, so a correction took it away afterwards";
 
@@ -71,7 +69,7 @@ class EdgeTests {
   std::vector<ExplainedTest> all(const Sharp& is_sharp) const {
     std::vector<ExplainedTest> tests;
     const bool inside = !mesh_.is_border_edge(e_);
-    tests.push_back({"Inside the scan", none, none, "", inside,
+    tests.push_back({"Inside the scan", nothing, nothing, "", inside,
                      inside
                          ? "The edge has a face on both sides."
                          : "The scan ends at this edge, and such edges have no exterior angle."});
@@ -317,7 +315,8 @@ double bound_for(const CurvatureInterval& interval, double value) {
 
 ExplainedTest vertex_test(const Mesh& mesh, const FaceRules& rules, VertexId v,
                           const CurvatureInterval* interval) {
-  ExplainedTest test{rules.name() + " of " + vertex_text(v), none, none, rules.unit(), true, ""};
+  ExplainedTest test{
+      rules.name() + " of " + vertex_text(v), nothing, nothing, rules.unit(), true, ""};
   const std::string where = "Vertex " + std::to_string(v);
   if (!rules.front().is_regular(v)) {
     test.sentence = where +
@@ -350,7 +349,7 @@ ExplainedTest side_test(const Document& document, HalfEdgeId h, std::uint32_t ow
   const Mesh& mesh = *document.mesh;
   const auto [a, b] = mesh.edge(h >> 1);
   ExplainedTest test{
-      "Side " + std::to_string(a) + "-" + std::to_string(b), none, none, "", false, ""};
+      "Side " + std::to_string(a) + "-" + std::to_string(b), nothing, nothing, "", false, ""};
   const std::string across = "Across " + std::to_string(a) + "-" + std::to_string(b) + " ";
   const FaceId f = mesh.face(Mesh::opposite(h));
   if (f == no_id) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct ExplainedTest {
   bool passed = false;
   std::string sentence;
 };
+
+/// In a test: nothing to measure, or nothing to hold it against.
+inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Why an edge is, or is not, on a line; why a face is, or is not, in a partition.
 struct Explanation {

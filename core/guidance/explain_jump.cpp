@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_set>
 
 #include "core/base/words.h"
@@ -10,8 +9,6 @@
 namespace arris {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool contains(const std::vector<EdgeId>& edges, EdgeId e) {
   return std::binary_search(edges.begin(), edges.end(), e);
@@ -53,7 +50,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   JumpTests result;
   const auto add = [&](ExplainedTest test) { result.tests.push_back(std::move(test)); };
   const bool inside = !mesh.is_border_edge(e);
-  add({"Inside the scan", none, none, "", inside,
+  add({"Inside the scan", nothing, nothing, "", inside,
        inside ? "The edge has a face on both sides."
               : "The scan ends at this edge, and nothing can be measured across it."});
   if (!inside) {
@@ -65,7 +62,7 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   const BorderEdge* border = evidence.candidates.find(e);
   const double here = std::abs(evidence.jump[e]);
   if (!border) {
-    add({"Region border", none, none, "", false,
+    add({"Region border", nothing, nothing, "", false,
          "No border between regions runs here: the jump has its crest elsewhere, or is too weak to "
          "part two regions."});
     add({"Normal jump", here, options.angle, "°", here > options.angle,
@@ -85,13 +82,13 @@ JumpTests test_by_jump(const Mesh& mesh, const LineEvidence& evidence,
   const bool is_crest = border->height <= 0.0F && !border->exact;
   const bool is_open = is_crest || (is_chosen && !above && reaches);
   if (border->exact) {
-    add({"Region border", none, none, "", true,
+    add({"Region border", nothing, nothing, "", true,
          "The mesh has no noise here, so that each edge counts by its own exterior angle."});
     add({"Exterior angle", border->height, options.angle, "°", above,
          std::string("The angle between the faces of the edge is ") +
              (above ? "above" : "not above") + " TV_IH."});
   } else {
-    add({"Region border", none, none, "", !is_open || is_chosen,
+    add({"Region border", nothing, nothing, "", !is_open || is_chosen,
          is_open ? "It parts no two regions, but lies on a crest of the jump, as a step does that "
                    "fades out."
                  : "It lies on a border between two regions."});

@@ -41,7 +41,7 @@ class PathSearch {
         if (verdict == Visit::finish) return;
         if (verdict == Visit::do_not_pass) continue;
       }
-      mesh_.for_ring(v, [&](HalfEdgeId h) {
+      mesh_.for_ring(v, [&, so_far = so_far](HalfEdgeId h) {
         const double length = here.length + mesh_.edge_length(h >> 1);
         if (length > reach) return;
         const double further = so_far + cost(h);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/curvature/distribution.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/front_rule.h"

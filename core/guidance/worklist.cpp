@@ -495,7 +495,8 @@ Result<std::vector<WorkItem>> worklist(const Document& document, const WorklistO
     for (WorkItem& item : *items) item.small = item.extent < small;
     std::move(items->begin(), items->end(), std::back_inserter(result));
   }
-  std::ranges::stable_partition(result, [](const WorkItem& item) { return !item.small; });
+  std::stable_partition(result.begin(), result.end(),
+                        [](const WorkItem& item) { return !item.small; });
   keep_largest(many, options.most_per_kind);
   std::move(many.begin(), many.end(), std::back_inserter(result));
   context.report(1.0, "worklist");

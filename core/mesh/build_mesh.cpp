@@ -10,14 +10,13 @@
 #include <utility>
 
 #include "core/mesh/cut_polygon.h"
+#include "core/mesh/geometry.h"
 #include "core/mesh/within_memory.h"
 
 namespace arris {
 
 namespace {
 
-/// Cross products this small beside the squared lengths they come from are rounding.
-constexpr double rounding = 1e-12;
 /// Angles in radians that differ by less are one.
 constexpr double nearly_equal = 1e-9;
 
@@ -608,7 +607,8 @@ class Builder {
       const Point ab = mesh.point(b) - mesh.point(a), ac = mesh.point(c) - mesh.point(a);
       const double longest =
           std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-      if (ab.cross(ac).norm() <= rounding * longest) add_once(report_.zero_area_faces, sources_[f]);
+      if (ab.cross(ac).norm() <= cross_rounding * longest)
+        add_once(report_.zero_area_faces, sources_[f]);
     }
 
     std::vector<bool> seen(2 * mesh.edge_count(), false);
@@ -648,7 +648,7 @@ class Builder {
       }
       if (closed) volume += part;
     }
-    report_.looks_inside_out = volume < -rounding * std::pow(mesh.diagonal(), 3);
+    report_.looks_inside_out = volume < -cross_rounding * std::pow(mesh.diagonal(), 3);
     return true;
   }
 

@@ -11,12 +11,11 @@
 
 #include <Eigen/Geometry>
 
+#include "core/mesh/geometry.h"
+
 namespace arris {
 
 namespace {
-
-/// Cross products this small beside the squared lengths they come from are rounding.
-constexpr double rounding = 1e-12;
 
 using Flat = Eigen::Vector2d;
 
@@ -29,7 +28,7 @@ double turn(const Flat& a, const Flat& b, const Flat& c) {
 std::optional<std::size_t> fan_tip(std::span<const Point> points, std::span<const VertexId> polygon,
                                    const Point& normal) {
   const std::size_t n = polygon.size();
-  const double least = rounding * normal.squaredNorm();
+  const double least = cross_rounding * normal.squaredNorm();
   // Looking at every corner of a huge polygon would take the square of its size.
   const std::size_t tries = std::min(n, 8 + (std::size_t{1} << 16) / n);
   for (std::size_t tip = 0; tip < tries; ++tip) {
@@ -98,7 +97,7 @@ class EarClipper {
       at_.push_back({(points[v] - origin).dot(x), (points[v] - origin).dot(y)});
     low_ = high_ = at_[0];
     for (const Flat& p : at_) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
-    nearness_ = rounding * (high_ - low_).norm();
+    nearness_ = cross_rounding * (high_ - low_).norm();
   }
 
   /// What the turn of a point beside the side from a to c may be and the point still lie on it.
@@ -330,7 +329,7 @@ PolygonCut cut_polygon(std::span<const Point> points, std::span<const VertexId> 
   }
   // Without a plane it is a line or crosses itself.
   const bool has_plane =
-      std::isfinite(reach) && normal.allFinite() && normal.norm() > rounding * reach;
+      std::isfinite(reach) && normal.allFinite() && normal.norm() > cross_rounding * reach;
   const std::optional<std::size_t> tip =
       has_plane ? fan_tip(points, polygon, normal) : std::optional<std::size_t>(0);
   if (!tip) return EarClipper(points, polygon, normal, triangles).run();
@@ -341,7 +340,7 @@ PolygonCut cut_polygon(std::span<const Point> points, std::span<const VertexId> 
     triangles.push_back(t);
     crossed = crossed || (!has_plane &&
                           (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm() >
-                              rounding * reach);
+                              cross_rounding * reach);
   }
   return crossed ? PolygonCut::crossed : PolygonCut::whole;
 }

@@ -1,10 +1,18 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "core/mesh/mesh.h"
 
 namespace arris {
+
+/// Degrees of a radian, in the precision of what is told in them.
+template <class Real>
+inline constexpr Real in_degrees = static_cast<Real>(180.0 / std::numbers::pi);
+/// Radians of a degree.
+template <class Real>
+inline constexpr Real in_radians = static_cast<Real>(std::numbers::pi / 180.0);
 
 /// The normal of a face, as long as twice its area (mm^2).
 inline Point area_normal(const Mesh& mesh, FaceId f) {
@@ -27,6 +35,9 @@ inline Point unit_normal(const Mesh& mesh, FaceId f) {
   const Triangle& t = mesh.triangle(f);
   return unit_normal(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
 }
+
+/// Cross products this small beside the squared lengths they come from are rounding.
+inline constexpr double cross_rounding = 1e-12;
 
 /// Interior angle of the triangle p, a, b at p, in radians, by atan2 (exact to rounding at any
 /// angle; 0 for a point).

@@ -4,8 +4,7 @@
 #include <iterator>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
+#include "core/base/json.h"
 #include "core/base/number_text.h"
 
 namespace arris {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/part_size.h"
 #include "core/partitions/surface_noise.h"
@@ -19,8 +19,7 @@ namespace arris {
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
-constexpr float never = 1e9F;
+constexpr float every = 1e9F;  // kinks at which areas are still joined
 /// HeightHistogram has bins of 2.5 degrees: kinks are a tenth of that.
 constexpr float finer = 10.0F;
 
@@ -84,7 +83,7 @@ std::vector<AreaJoin> join_pieces(const FaceTable& table, const FaceRegions& pie
             .add(finer * kinks.at_edge[table.sides[f][k]], edge_length[table.sides[f][k]]);
   std::vector<AreaJoin> joins;
   joining.run(
-      never,
+      every,
       [](const HeightHistogram& heights, std::uint32_t, std::uint32_t) {
         return heights.quantile(0.5F) / finer;
       },
@@ -297,13 +296,15 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   context.report(0.33, "areas");
   // Grains of a fine scan are larger: a part as such has no more to tell, and what a scan is off by
   // over long ways is noise of the samples then, too.
-  const double scale = part_size(mesh) / usual_part_size;
+  constexpr double largest = 1e4;  // a part of absurd size is infinitely large
+  double scale = part_size(mesh) / usual_part_size;
+  if (!(scale < largest)) scale = largest;
   const int grain = static_cast<int>(options.grain * std::max(1.0, scale));
   Grains grains = make_grains(table, areas, tree.banded, grain);
   if (context.cancelled()) return cancelled();
   context.report(0.35, "surfaces");
   const SurfaceNoise least_noise{static_cast<double>(options.distance),
-                                 static_cast<double>(options.angle) * radians};
+                                 static_cast<double>(options.angle) * in_radians<double>};
   tree.noise = noise_of(grain_windows(grains, options.growing.seed), least_noise);
   const SurfaceNoise near_noise = tree.noise;
   const FaceRegions old = areas;
@@ -368,8 +369,9 @@ Result<AreaTree> grow_area_tree(const Mesh& mesh, const SharpLines& lines,
   };
   for (AreaTree::Piece& piece : tree.pieces) free_where_missed(piece.surface);
   for (AreaJoin& join : tree.joins) free_where_missed(join.surface);
-  tree.face_noise = {tree.noise.distance * options.face_noise,
-                     std::max(static_cast<double>(kinks->noise) * radians, tree.noise.angle)};
+  tree.face_noise = {
+      tree.noise.distance * options.face_noise,
+      std::max(static_cast<double>(kinks->noise) * in_radians<double>, tree.noise.angle)};
   tree.of_face = pieces.of_face;
   if (context.cancelled()) return cancelled();
   settle(mesh, tree, table, edge_length, options.borders, context.part(0.93, 0.98));

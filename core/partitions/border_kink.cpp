@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
 #include "core/base/parallel.h"
 #include "core/mesh/chains.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/watershed.h"
 
 namespace arris {
@@ -15,7 +15,6 @@ namespace arris {
 namespace {
 
 using Eigen::Vector3f;
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 constexpr std::ptrdiff_t smoothing = 4;  // places on either side over which a chain is smoothed
 
 float explained(const BorderSums::Side& side, float ridge) {
@@ -78,7 +77,8 @@ void sum_place(const Mesh& mesh, const FaceTable& table, const SideOf& side_of,
     if (t < options.near || t > options.far) continue;
     Eigen::Vector2f turn(table.faces[f].normal.dot(across), table.faces[f].normal.dot(along));
     const float sine = turn.norm();
-    if (sine > 1e-6F) turn *= std::atan2(sine, table.faces[f].normal.dot(up)) / sine * degrees;
+    if (sine > 1e-6F)
+      turn *= std::atan2(sine, table.faces[f].normal.dot(up)) / sine * in_degrees<float>;
     const float w = table.faces[f].area;
     const Vector3f at(1.0F, beyond ? t : -t, y);
     BorderSums::Side& side = sums.sides[beyond];

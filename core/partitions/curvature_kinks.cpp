@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/normal_window.h"
 
 namespace arris {
@@ -14,11 +14,10 @@ namespace {
 
 using Eigen::Vector3f;
 using Fields = Eigen::Matrix<float, 3, 2>;
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 constexpr std::size_t least_faces = 8;  // of a window
 
 struct Measured {
-  float kink = 0.0F, missed = 0.0F;  // degrees
+  float kink = 0.0F, missed = 0.0F;  // in_degrees<float>
   Vector3f across = Vector3f::Zero(), normal = Vector3f::Zero();
 };
 
@@ -73,8 +72,8 @@ Measured measure(const std::vector<WindowFace>& faces, const CurvatureKinkOption
   const float kink = std::max(0.0F, apart - both.explained(options.ridge)) / w;
   // With nearly all faces on one side the other explains anything.
   const float balance = 2.0F * std::sqrt(w0 * w1) / w;
-  result.kink = std::sqrt(kink) * degrees * std::min(1.0F, 1.2F * balance);
-  result.missed = std::sqrt(std::max(0.0F, squares - apart) / w / 2.0F) * degrees;
+  result.kink = std::sqrt(kink) * in_degrees<float> * std::min(1.0F, 1.2F * balance);
+  result.missed = std::sqrt(std::max(0.0F, squares - apart) / w / 2.0F) * in_degrees<float>;
   return result;
 }
 

@@ -510,7 +510,7 @@ EditedPartitions edit_partitions(const PartitionGround& ground, const FaceLabels
     if (partition.faces == 0) continue;
     std::vector<FaceId> starts;
     for (const FaceId f : faces)
-      for_sides(mesh, f, [&](HalfEdgeId h) {
+      for_sides(mesh, f, [&, id = id](HalfEdgeId h) {
         if (const FaceId g = mesh.face(Mesh::opposite(h)); g != no_id && labels[g] == id)
           starts.push_back(g);
       });

@@ -23,9 +23,11 @@ std::vector<CurvatureInterval> default_intervals(const Mesh& mesh, const Curvatu
   const double none = std::numeric_limits<double>::infinity();
   const Distribution distribution(values, weights);
   // Values that differ only below this are all "flat": a radius of ten times the part.
-  const double least = criterion == Criterion::kabs
-                           ? 1.0 / (100.0 * std::max(mesh.diagonal() * mesh.diagonal(), 1e-300))
-                           : 1e-4;
+  const double least =
+      criterion == Criterion::kabs
+          ? std::max(1.0 / (100.0 * std::max(mesh.diagonal() * mesh.diagonal(), 1e-300)),
+                     std::numeric_limits<double>::min())  // above 0 on parts of any size
+          : 1e-4;
   const double high = distribution.quantile(0.995);
   if (distribution.empty() || !(high > 4.0 * least)) return {{0.0, none}};
   const double low = std::max(distribution.quantile(0.005), least);

@@ -6,6 +6,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/sharp_lines/region_joining.h"
 
 namespace arris {

@@ -25,6 +25,20 @@ std::array<Vector3d, 2> tangents(const Vector3d& n) {
   return {x, n.cross(x)};
 }
 
+/// The shortest turn of one direction to another. As Eigen's FromTwoVectors, whose answer for
+/// opposite ones takes a third of the time that this file takes to compile.
+Eigen::Quaterniond turn_between(const Vector3d& one, const Vector3d& other) {
+  const Vector3d from = one.normalized(), to = other.normalized();
+  const double cosine = to.dot(from);
+  if (cosine < -1.0 + 1e-12) {
+    const Vector3d across = tangents(from)[0];
+    return {0.0, across.x(), across.y(), across.z()};
+  }
+  const double length = std::sqrt((1.0 + cosine) * 2.0);
+  const Vector3d axis = from.cross(to) * (1.0 / length);
+  return {0.5 * length, axis.x(), axis.y(), axis.z()};
+}
+
 /// Unit eigenvector of the least eigenvalue.
 Vector3d least_direction(const Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
@@ -330,7 +344,7 @@ class Fitting {
   Vector3d turned(const Surface& surface, const Vector3d& tilt, Vector3d& point) const {
     const Vector3d axis = (surface.axis + tilt).normalized();
     if (surface.type == SurfaceType::sphere) return axis;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(surface.axis, axis);
+    const Eigen::Quaterniond turn = turn_between(surface.axis, axis);
     point = moments_.centre + turn * (point - moments_.centre);
     return axis;
   }

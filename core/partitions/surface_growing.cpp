@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 
 namespace arris {
 

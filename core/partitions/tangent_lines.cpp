@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/face_table.h"
 
 namespace arris {
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// Where a boundary runs at each of its edges, without the zigzag of the mesh; unit, zero where it
 /// has no length.
@@ -126,12 +124,13 @@ Result<std::vector<TangentLine>> find_tangent_lines(const Mesh& mesh, const Part
     if (!(left.spread() > 0.0) || !(right.spread() > 0.0)) continue;
     const double l = std::abs(left.slope()), r = std::abs(right.slope());
     const double tight = std::max(l, r),
-                 kink = std::abs(left.at_zero() - right.at_zero()) * degrees;
-    const double stray = std::abs(left.slope() - right.slope()) * options.astray * degrees;
+                 kink = std::abs(left.at_zero() - right.at_zero()) * in_degrees<double>;
+    const double stray =
+        std::abs(left.slope() - right.slope()) * options.astray * in_degrees<double>;
     const Boundary& boundary = *boundaries[places[i]];
     if (kink > std::min(options.kink + stray, options.most_kink) ||
         tight < options.least_ratio * std::min(l, r) ||
-        tight * options.reach * degrees < options.least_turn)
+        tight * options.reach * in_degrees<double> < options.least_turn)
       continue;
     const std::uint32_t fillet = l > r ? boundary.left : boundary.right;
     double radius = table.unit / tight;

@@ -10,8 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "core/base/json.h"
 #include "core/base/number_text.h"
 #include "core/base/read_file.h"
 #include "core/base/words.h"

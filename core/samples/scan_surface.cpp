@@ -380,7 +380,7 @@ ScannedSurface scan_height_field(const HeightField& field, double spacing, std::
     if (!kept[f]) continue;
     Triangle t;
     for (int k = 0; k < 3; ++k) t[k] = number[faces[f].corners[k]];
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     result.triangles.push_back(t);
   }
   std::ranges::sort(result.triangles);

@@ -196,7 +196,7 @@ void bridge_gaps(const Mesh& mesh, const Curvatures& curvatures, double gap,
         }
         continue;  // never through another line
       }
-      mesh.for_ring(v, [&](HalfEdgeId h) {
+      mesh.for_ring(v, [&, length = length](HalfEdgeId h) {
         if (mesh.is_border_edge(h >> 1) || edges[h >> 1] != Origin::none) return;
         const double further = length + mesh.edge_length(h >> 1);
         if (further > gap) return;

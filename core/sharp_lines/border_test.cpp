@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
 namespace {
 
 using Eigen::Vector3f;
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 /// Beyond this a side shows whether it is wide enough to have a slope.
 constexpr float far_side = 2.0F;
 /// Faces belong to a place only where their nearest border edge is on its chain, no farther along.
@@ -163,7 +162,8 @@ void BorderTest::sum_sides(std::uint32_t number, std::size_t from, std::size_t t
         if (own) sums.own_far[side] += w;
       }
       if (!own) continue;
-      const float turn = std::atan2(normals_[f].dot(leftwards), normals_[f].dot(up)) * degrees;
+      const float turn =
+          std::atan2(normals_[f].dot(leftwards), normals_[f].dot(up)) * in_degrees<float>;
       std::array<float, 5>& s = sums.side[side];
       s[0] += w;
       s[1] += w * t;

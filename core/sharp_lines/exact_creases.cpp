@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/parallel.h"
 #include "core/mesh/chains.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
 namespace {
-
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 
 /// Whether about an edge there are enough edges without any angle.
 bool is_clean(const Mesh& mesh, const std::vector<float>& beta, EdgeId e,
@@ -22,7 +20,7 @@ bool is_clean(const Mesh& mesh, const std::vector<float>& beta, EdgeId e,
       const EdgeId other = h >> 1;
       if (other == e || mesh.is_border_edge(other)) return;
       ++all;
-      flat += std::abs(beta[other]) * degrees <= options.flat;
+      flat += std::abs(beta[other]) * in_degrees<float> <= options.flat;
     });
   // Two faces alone have nothing about them that could be noisy.
   return static_cast<float>(flat) >= options.flat_share * static_cast<float>(all);
@@ -35,7 +33,7 @@ double flat_share_about(const Mesh& mesh, const std::vector<float>& beta, EdgeId
     mesh.for_ring(v, [&](HalfEdgeId out) {
       mesh.for_ring(mesh.to(out), [&](HalfEdgeId h) {
         ++all;
-        count += !mesh.is_border_edge(h >> 1) && std::abs(beta[h >> 1]) * degrees <= flat;
+        count += !mesh.is_border_edge(h >> 1) && std::abs(beta[h >> 1]) * in_degrees<float> <= flat;
       });
     });
   return static_cast<double>(count) / all;
@@ -64,8 +62,8 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
   std::vector<std::uint8_t> is_crease(mesh.edge_count(), 0);
   parallel_for(is_crease.size(), [&](std::size_t i) {
     const EdgeId e = static_cast<EdgeId>(i);
-    is_crease[i] = std::abs(beta[i]) * degrees >= options.least_angle && !mesh.is_border_edge(e) &&
-                   is_clean(mesh, beta, e, options);
+    is_crease[i] = std::abs(beta[i]) * in_degrees<float> >= options.least_angle &&
+                   !mesh.is_border_edge(e) && is_clean(mesh, beta, e, options);
   });
   std::vector<EdgeId> edges;
   for (EdgeId e = 0; e < is_crease.size(); ++e)
@@ -82,7 +80,7 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
       length += own;
       if (!has_windows(mesh, table, e, flat_share_about(mesh, beta, e, options.flat))) continue;
       judged += own;
-      const float angle = std::abs(beta[e]) * degrees;
+      const float angle = std::abs(beta[e]) * in_degrees<float>;
       if (angle > options.most_facet || jump.at_edge[e] >= options.least_jump * angle)
         agreed += own;
     }
@@ -113,13 +111,13 @@ std::vector<BorderEdge> find_exact_creases(const Mesh& mesh, const std::vector<f
       flat += share / static_cast<double>(group.size());
       if (!has_windows(mesh, table, e, share)) continue;
       judged += mesh.edge_length(e);
-      if (jump.at_edge[e] > options.most_jump * std::abs(beta[e]) * degrees)
+      if (jump.at_edge[e] > options.most_jump * std::abs(beta[e]) * in_degrees<float>)
         beyond += mesh.edge_length(e);
     }
     // On a noisy scan an edge may look clean by chance, but not with all that surrounds it.
     if (beyond > options.most_beyond * judged || flat < options.group_flat_share) continue;
     for (const EdgeId e : group) {
-      const float angle = beta[e] * degrees;
+      const float angle = beta[e] * in_degrees<float>;
       result.push_back({e, std::abs(angle), {angle, angle, std::abs(angle)}, true});
     }
   }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/face_table.h"
 
 namespace arris {
@@ -13,7 +13,6 @@ namespace arris {
 namespace {
 
 using Eigen::Vector3f;
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 // As in the border test (border_test.cpp).
 constexpr int smoothing = 3;             // places on either side over which a line is smoothed
 constexpr std::ptrdiff_t own_reach = 7;  // places along the line whose faces a place has
@@ -84,9 +83,9 @@ struct Place {
 };
 
 /// The chain of candidates at least as strong as the edge itself, through it.
-class Line {
+class StrongChain {
  public:
-  Line(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e, int most)
+  StrongChain(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e, int most)
       : mesh_(mesh), candidates_(candidates), path_{2 * e} {
     const BorderEdge* own = candidates.find(e);
     if (!own) return;
@@ -153,11 +152,11 @@ class Line {
   const CandidateGraph& candidates_;
   std::vector<HalfEdgeId> path_;
   std::size_t own_ = 0;
-  float least_ = 1e9F;  // degrees: no barriers where the edge is no candidate
+  float least_ = 1e9F;  // in_degrees<float>: no barriers where the edge is no candidate
 };
 
 /// As BorderTest::sum_sides() places itself.
-Place place_on(const Surroundings& near, const Line& line, std::ptrdiff_t i,
+Place place_on(const Surroundings& near, const StrongChain& line, std::ptrdiff_t i,
                const BorderTestOptions& options) {
   Place place;
   place.half_edge = line.at(i);
@@ -218,7 +217,8 @@ Place place_off(const Mesh& mesh, Surroundings& near, EdgeId e, const BorderTest
 /// Sums over faces about all places that are pooled.
 class Sums {
  public:
-  Sums(const Mesh& mesh, Surroundings& near, const Line& line, const BorderTestOptions& options)
+  Sums(const Mesh& mesh, Surroundings& near, const StrongChain& line,
+       const BorderTestOptions& options)
       : mesh_(mesh), near_(near), line_(line), options_(options) {}
 
   void add(const Place& place, float weight) {
@@ -257,7 +257,8 @@ class Sums {
       const bool own = known != side_of.end();
       const bool positive = own ? known->second > 0 : d.dot(leftwards) > 0.0F;
       const float turn =
-          std::atan2(near_.face(f).normal.dot(leftwards), near_.face(f).normal.dot(up)) * degrees;
+          std::atan2(near_.face(f).normal.dot(leftwards), near_.face(f).normal.dot(up)) *
+          in_degrees<float>;
       const float w = weight * near_.face(f).area * std::exp(-y * y / (place.along * place.along));
       if (!(w > 0.0F)) continue;
       if (t < JumpProfile::reach) {
@@ -352,7 +353,7 @@ class Sums {
 
   const Mesh& mesh_;
   Surroundings& near_;
-  const Line& line_;
+  const StrongChain& line_;
   const BorderTestOptions& options_;
   std::array<std::array<float, 3>, bins> bins_{};  // weight, distance, turn
   std::array<float, 2> own_far_{}, all_far_{};
@@ -369,7 +370,7 @@ float JumpProfile::jump() const {
 JumpProfile profile_across(const Mesh& mesh, const CandidateGraph& candidates, EdgeId e,
                            const BorderTestOptions& options) {
   if (mesh.is_border_edge(e)) return {};
-  const Line line(mesh, candidates, e, options.pooled + static_cast<int>(own_reach));
+  const StrongChain line(mesh, candidates, e, options.pooled + static_cast<int>(own_reach));
   Surroundings near(mesh, e);
   Sums sums(mesh, near, line, options);
   const BorderEdge* border = candidates.find(e);

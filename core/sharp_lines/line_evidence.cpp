@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
 namespace {
-
-constexpr float radians = static_cast<float>(std::numbers::pi / 180.0);
 
 /// The jump as what a walk along lines reads.
 CurvaturesPtr as_measures(const Mesh& mesh, const NormalJump& jump,
@@ -22,17 +21,18 @@ CurvaturesPtr as_measures(const Mesh& mesh, const NormalJump& jump,
   auto measures = std::make_shared<Curvatures>();
   measures->beta.resize(mesh.edge_count());
   measures->ikabs.resize(mesh.vertex_count());
-  parallel_for(at_edge.size(),
-               [&](std::size_t e) { measures->beta[e] = at_edge[e] * radians * off_crest; });
+  parallel_for(at_edge.size(), [&](std::size_t e) {
+    measures->beta[e] = at_edge[e] * in_radians<float> * off_crest;
+  });
   for (const BorderEdge& candidate : candidates)
     measures->beta[candidate.edge] =
         (std::abs(candidate.place.jump) >= std::abs(at_edge[candidate.edge])
              ? candidate.place.jump
              : at_edge[candidate.edge]) *
-        radians;
+        in_radians<float>;
   parallel_for(measures->ikabs.size(), [&](std::size_t v) {
     // A vertex is as sharp as its sharpest edge, where that is told exactly.
-    float sharpest = std::abs(jump.at_vertex[v]) * radians;
+    float sharpest = std::abs(jump.at_vertex[v]) * in_radians<float>;
     mesh.for_ring(static_cast<VertexId>(v), [&](HalfEdgeId h) {
       sharpest = std::max(sharpest, std::abs(measures->beta[h >> 1]));
     });

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/sharp_lines/region_joining.h"
 
 namespace arris {

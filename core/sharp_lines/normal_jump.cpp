@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/normal_window.h"
 
 namespace arris {
@@ -13,11 +13,10 @@ namespace arris {
 namespace {
 
 using Eigen::Vector3f;
-constexpr float degrees = static_cast<float>(180.0 / std::numbers::pi);
 
 struct Measured {
-  float jump = 0.0F;  // degrees, convex positive
-  float turn = 0.0F;  // degrees, between the means
+  float jump = 0.0F;  // in_degrees<float>, convex positive
+  float turn = 0.0F;  // in_degrees<float>, between the means
   Vector3f along = Vector3f::Zero(), normal = Vector3f::Zero();
 };
 
@@ -29,7 +28,7 @@ Measured measure(const std::vector<WindowFace>& samples, const NormalJumpOptions
   result.along = along;
   result.normal = n;
 
-  const float least_cosine = std::cos(options.most_turn / degrees);
+  const float least_cosine = std::cos(options.most_turn / in_degrees<float>);
   const float near2 = options.near * options.near, far2 = options.far * options.far;
   const float across2 = 1.0F / (options.across * options.across);
   const float along2 = 1.0F / (options.along * options.along);
@@ -67,8 +66,9 @@ Measured measure(const std::vector<WindowFace>& samples, const NormalJumpOptions
   const Eigen::Vector2f plain = mean[1] - mean[0];
   const float most = plain.norm();
   if (!(most > 0.0F)) return result;
-  result.jump = std::clamp((at_line[1] - at_line[0]).dot(plain) / most, 0.0F, most) * degrees;
-  result.turn = most * degrees;
+  result.jump =
+      std::clamp((at_line[1] - at_line[0]).dot(plain) / most, 0.0F, most) * in_degrees<float>;
+  result.turn = most * in_degrees<float>;
   if (plain[0] < 0.0F) result.jump = -result.jump;  // the sides lean towards each other
   return result;
 }

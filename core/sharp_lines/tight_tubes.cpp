@@ -10,6 +10,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/watched_for.h"
+#include "core/mesh/geometry.h"
 #include "core/sharp_lines/normal_window.h"
 #include "core/sharp_lines/watershed.h"
 
@@ -19,7 +20,6 @@ namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-constexpr float radians = static_cast<float>(std::numbers::pi / 180.0);
 
 /// A round wall about an axis.
 struct Tube {
@@ -41,7 +41,7 @@ class TubeFinder {
       : table_(table),
         normals_(normals),
         options_(options),
-        most_along_(std::sin(options.most_slant * radians)) {}
+        most_along_(std::sin(options.most_slant * in_radians<float>)) {}
 
   /// The wall about a place on it.
   std::optional<Tube> fit_at(const std::vector<FaceId>& seeds, const Vector3f& place,
@@ -112,7 +112,7 @@ class TubeFinder {
     tube.tilt = std::sqrt(tilt / area);
     const float size = std::abs(tube.radius);
     if (size > options_.most_radius || size < options_.least_radius) return {};
-    if (tube.tilt > options_.most_tilt * radians) return {};
+    if (tube.tilt > options_.most_tilt * in_radians<float>) return {};
     // A face may span more than a sector of the narrowest.
     if (std::count(seen.begin(), seen.end(), true) + 1 < static_cast<std::ptrdiff_t>(sectors))
       return {};

@@ -92,7 +92,7 @@ double area_of(const Mesh& mesh) {
   return sum;
 }
 
-const std::vector<Point> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::vector<Point> unit_square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 TEST(BuildMesh, AMeshWithoutFaultsIsKeptToTheLetter) {
   for (const testing::Triangles& t : {testing::icosphere(1.0, 2), testing::block_with_holes(2),
@@ -119,7 +119,7 @@ TEST(BuildMesh, CountsAreThoseOfTopology) {
 }
 
 TEST(BuildMesh, PolygonsAreCutWithoutFlippedTriangles) {
-  EXPECT_EQ(build(square, {{0, 1, 2, 3}}).mesh->triangles(),
+  EXPECT_EQ(build(unit_square, {{0, 1, 2, 3}}).mesh->triangles(),
             (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   // An arrow head: only the fans from its tip and from its notch lie inside.
   const std::vector<Point> arrow{{0, 0, 0}, {2, -2, 0}, {1, 0, 0}, {2, 2, 0}};
@@ -259,7 +259,7 @@ TEST(BuildMesh, KeyHolePolygonsKeepTheirHoles) {
 }
 
 TEST(BuildMesh, AnOutlineThatRunsStraightBackIsCutOffThere) {
-  std::vector<Point> points = square;
+  std::vector<Point> points = unit_square;
   points.push_back({3, 3, 0});
   const Built built = expect_covered(points, {0, 1, 2, 4, 2, 3});
   EXPECT_EQ(built.mesh->face_count(), 2u);
@@ -275,7 +275,7 @@ TEST(BuildMesh, CrossedOutlinesAreTold) {
 
 TEST(BuildMesh, CornersNamedTwiceInARowCountOnce) {
   // Quads that name a corner again, and one that names its first corner at the end.
-  const Built built = build(square, {{0, 0, 1, 2}, {0, 2, 3, 3, 0}});
+  const Built built = build(unit_square, {{0, 0, 1, 2}, {0, 2, 3, 3, 0}});
   EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(built.report.repeated_corners, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_TRUE(built.report.degenerate_faces.empty());
@@ -445,7 +445,7 @@ TEST(TouchingBodies, BlocksOneOnTheOtherStayClosed) {
 
 TEST(TouchingBodies, TheBackOfASheetOrOfASkinIsOneFaceTooMany) {
   // A sheet with both sides, and a closed skin with another inside it.
-  const Built sheet = build(square, {{0, 1, 2, 3}, {3, 2, 1, 0}});
+  const Built sheet = build(unit_square, {{0, 1, 2, 3}, {3, 2, 1, 0}});
   EXPECT_EQ(sheet.report.duplicate_faces, (std::vector<std::uint32_t>{1}));
   EXPECT_EQ(sheet.mesh->face_count(), 2u);
   testing::Triangles skin = testing::icosphere(1.0, 1), inner = skin;
@@ -591,7 +591,7 @@ TEST(FarFromTheOrigin, TheStepOfThirtyTwoBitsIsTold) {
 }
 
 TEST(BuildMesh, FacesWithoutThreeVerticesCoverNothing) {
-  const Built built = build(square, {{0, 1, 1}, {}, {2}, {0, 1}, {0, 1, 2}, {0, 2, 3, 3}});
+  const Built built = build(unit_square, {{0, 1, 1}, {}, {2}, {0, 1}, {0, 1, 2}, {0, 2, 3, 3}});
   EXPECT_EQ(built.report.degenerate_faces, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(built.source_faces, (std::vector<std::uint32_t>{4, 5}));
@@ -600,7 +600,7 @@ TEST(BuildMesh, FacesWithoutThreeVerticesCoverNothing) {
 }
 
 TEST(BuildMesh, FacesWithoutAreaAreKeptAndTold) {
-  std::vector<Point> points = square;
+  std::vector<Point> points = unit_square;
   points.push_back({0.5, 0, 0});
   const Built built = build(points, {{4, 1, 2}, {4, 2, 3}, {4, 3, 0}, {0, 1, 4}});
   EXPECT_EQ(built.mesh->face_count(), 4u);
@@ -609,12 +609,12 @@ TEST(BuildMesh, FacesWithoutAreaAreKeptAndTold) {
 }
 
 TEST(BuildMesh, DuplicateFacesAreLeftOut) {
-  const Built built = build(square, {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {3, 2, 0}, {0, 2, 1}});
+  const Built built = build(unit_square, {{0, 1, 2}, {1, 2, 0}, {0, 2, 3}, {3, 2, 0}, {0, 2, 1}});
   EXPECT_EQ(built.report.duplicate_faces, (std::vector<std::uint32_t>{1, 3, 4}));
   EXPECT_EQ(built.mesh->triangles(), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_TRUE(built.report.non_manifold_edges.empty());
   // Squares that would be cut along different diagonals are the same face too.
-  const Built squares = build(square, {{0, 1, 2, 3}, {1, 2, 3, 0}, {3, 2, 1, 0}});
+  const Built squares = build(unit_square, {{0, 1, 2, 3}, {1, 2, 3, 0}, {3, 2, 1, 0}});
   EXPECT_EQ(squares.report.duplicate_faces, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(squares.mesh->face_count(), 2u);
 }
@@ -637,7 +637,7 @@ TEST(BuildMesh, NonFinitePointsKeepTheirIdsAndLoseTheirFaces) {
 }
 
 TEST(BuildMesh, IsolatedVerticesAreKept) {
-  const Built built = build(square, {{0, 1, 3}});
+  const Built built = build(unit_square, {{0, 1, 3}});
   EXPECT_EQ(built.report.isolated_vertices, (std::vector<std::uint32_t>{2}));
   EXPECT_EQ(built.mesh->vertex_count(), 4u);
   EXPECT_EQ(built.report.euler_number, 1);
@@ -760,7 +760,7 @@ TEST(BuildMesh, InsideOutIsToldAndNotMended) {
 TEST(BuildMesh, NoFaceLeftIsAnError) {
   LoadReport report;
   report.file = "part.off";
-  const PolygonFile file = file_of(square, {{0, 1, 1}, {2, 2}});
+  const PolygonFile file = file_of(unit_square, {{0, 1, 1}, {2, 2}});
   const Result<BuiltMesh> built = build_mesh(file.points, file.starts, file.corners, report);
   ASSERT_FALSE(built);
   EXPECT_TRUE(built.error().message.starts_with("part.off has no face that can be used"));
@@ -771,7 +771,7 @@ TEST(BuildMesh, StopsWhenAskedTo) {
   std::stop_source stop;
   stop.request_stop();
   LoadReport report;
-  const PolygonFile file = file_of(square, {{0, 1, 2}});
+  const PolygonFile file = file_of(unit_square, {{0, 1, 2}});
   const Result<BuiltMesh> built =
       build_mesh(file.points, file.starts, file.corners, report, Context({}, stop.get_token()));
   ASSERT_FALSE(built);
@@ -863,17 +863,17 @@ TEST(Scan, KeepsTheFileOnlyWhereTheMeshDiffers) {
     const Result<ScanPtr> scan = make_scan(file_of(points, polygons), "test");
     return (*scan)->file != nullptr;
   };
-  EXPECT_FALSE(keeps(square, {{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_FALSE(keeps(square, {{0, 1, 2}})) << "an isolated vertex is in both";
-  EXPECT_TRUE(keeps(square, {{0, 1, 2, 3}}));
-  EXPECT_TRUE(keeps(square, {{0, 1, 2}, {0, 1, 2}}));
-  EXPECT_TRUE(keeps(square, {{0, 1, 2}, {0, 3, 2}})) << "a face was turned";
+  EXPECT_FALSE(keeps(unit_square, {{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_FALSE(keeps(unit_square, {{0, 1, 2}})) << "an isolated vertex is in both";
+  EXPECT_TRUE(keeps(unit_square, {{0, 1, 2, 3}}));
+  EXPECT_TRUE(keeps(unit_square, {{0, 1, 2}, {0, 1, 2}}));
+  EXPECT_TRUE(keeps(unit_square, {{0, 1, 2}, {0, 3, 2}})) << "a face was turned";
   const std::vector<Point> two_by_two{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
   EXPECT_TRUE(keeps(two_by_two, {{1, 2, 0}, {3, 4, 0}}));
 }
 
 TEST(Scan, TheReportNamesTheFile) {
-  PolygonFile file = file_of(square, {{0, 1, 2}, {0, 2, 3}});
+  PolygonFile file = file_of(unit_square, {{0, 1, 2}, {0, 2, 3}});
   file.format = "PLY";
   file.content_hash = "abc";
   file.bytes = 123;

@@ -59,7 +59,7 @@ Triangles split_round_first(const Triangles& mesh, const std::vector<double>& sh
   Triangles result{mesh.points, {}};
   std::size_t k = 0;
   for (Triangle t : mesh.triangles) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     if (t[0] != 0) continue;
     const double share = shares[k++ % shares.size()];
     if (share <= 0.0) {

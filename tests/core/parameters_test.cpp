@@ -97,7 +97,7 @@ TEST_F(Parameters, NumbersTakeTheirBoundsAndNothingBeyond) {
       SCOPED_TRACE(std::string(kind->name) + " " + std::string(parameter.name));
       const bool whole = parameter.kind == ParameterKind::whole;
       const double scale = parameter.unit == unit_of_part ? part.mesh->diagonal() : 1.0;
-      const auto taken = [&](const json& value) {
+      const auto taken = [&, kind = kind](const json& value) {
         const auto result = kind->resolve(part, {{std::string(parameter.name), value}});
         if (!result) {
           EXPECT_NE(result.error().message.find(parameter.name), std::string::npos);

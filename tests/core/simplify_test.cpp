@@ -28,7 +28,6 @@ namespace {
 
 using namespace arris::testing;
 
-constexpr double pi = std::numbers::pi;
 const ChunkedArray<Origin> no_edges;
 
 MeshPtr mould_mesh(double noise = 0.05) {
@@ -157,7 +156,7 @@ void expect_sound(const Mesh& scan, const Prepared& result, const std::string& w
   // Topology, orientation, shape of the faces.
   EXPECT_EQ(topology_of(mesh), topology_of(scan));
   EXPECT_LE(largest_angle_between_faces(mesh),
-            std::max(largest_angle_between_faces(scan), 2.0 * pi / 3.0) + 1e-9);
+            std::max(largest_angle_between_faces(scan), 2.0 * std::numbers::pi / 3.0) + 1e-9);
   std::set<Triangle> before, faces;
   const auto sorted = [](Triangle t) {
     std::ranges::sort(t);
@@ -463,7 +462,7 @@ TEST(StarTriangulation, IsTheBestOfAll) {
     polygon.least_cosine = trial % 3 == 0 ? -0.5 : -1.0;
     std::vector<Point> normals(polygon.size);
     for (int i = 0; i < polygon.size; ++i) {
-      const double angle = 2.0 * pi * (i + 0.6 * random.uniform()) / polygon.size;
+      const double angle = 2.0 * std::numbers::pi * (i + 0.6 * random.uniform()) / polygon.size;
       const double radius = random.uniform(0.5, 1.5);
       polygon.vertices[i] = static_cast<VertexId>((i * 7 + trial) % 16);
       polygon.points[i] = {radius * std::cos(angle), radius * std::sin(angle),

@@ -16,7 +16,7 @@ namespace {
 
 using namespace arris::testing;
 
-Document found(const Triangles& part) {
+Document divided(const Triangles& part) {
   return applied(applied(document_of(part), {"find_sharp_lines"}), {"find_partitions"});
 }
 
@@ -39,7 +39,7 @@ std::vector<TangentLine> tangent_lines_of(const Document& document) {
 TEST(TangentLines, AreBothRimsOfAFilletWithItsRadius) {
   for (const double radius : {5.0, 9.0})
     for (const double noise : {0.0, 0.05, 0.1}) {
-      const Document document = found(noisy(filleted_edge(18.0, radius, 0.7), noise, 5));
+      const Document document = divided(noisy(filleted_edge(18.0, radius, 0.7), noise, 5));
       ASSERT_EQ(document.partitions.partitions.size(), 3u) << radius << " " << noise;
       const std::vector<TangentLine> lines = tangent_lines_of(document);
       ASSERT_EQ(lines.size(), 2u) << radius << " " << noise;
@@ -57,7 +57,7 @@ TEST(TangentLines, AreMeasuredInTheUnitOfThePart) {
   const Triangles part = noisy(filleted_edge(18.0, 5.0, 0.7), 0.05, 5);
   const double metres = 0.001;
   const std::vector<TangentLine> lines = tangent_lines_of(
-      found(moved(part, metres, Eigen::Matrix3d::Identity(), Point(3.0, -2.0, 1.0))));
+      divided(moved(part, metres, Eigen::Matrix3d::Identity(), Point(3.0, -2.0, 1.0))));
   ASSERT_EQ(lines.size(), 2u);
   for (const TangentLine& line : lines) EXPECT_NEAR(line.radius, 5.0 * metres, 0.2 * metres);
 }
@@ -71,11 +71,11 @@ TEST(TangentLines, AreNotWhereAKinkIs) {
     return Point(radius * (std::sin(kink + s / radius) - std::sin(kink)), y,
                  radius * (std::cos(kink + s / radius) - std::cos(kink)));
   });
-  const Document document = found(noisy(part, 0.05, 3));
+  const Document document = divided(noisy(part, 0.05, 3));
   ASSERT_EQ(document.partitions.partitions.size(), 2u);
   EXPECT_TRUE(tangent_lines_of(document).empty());
   // Nor are sharp lines.
-  EXPECT_TRUE(tangent_lines_of(found(divided_cube(10.0, 10))).empty());
+  EXPECT_TRUE(tangent_lines_of(divided(divided_cube(10.0, 10))).empty());
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST_F(SessionTest, EndsInTheMiddleOfItsWork) {
   for (int k = 0; k < 20; ++k) {
     Session other;
     other.open(path());
-    if (k % 2 == 0) QTest::qWait(k);
+    if (k % 2 == 0) QTest::qWait(k);  // at another moment of its work each time
     other.close();
   }
 }

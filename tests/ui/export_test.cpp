@@ -37,7 +37,7 @@ class ExportResults : public MainWindowTest {
       if (dialog->isVisible()) dialog->reject();
     });
     timer.start(20);
-    QTest::keyClick(window.get(), Qt::Key_E, Qt::ControlModifier);
+    press(Qt::Key_E, Qt::ControlModifier);
     ASSERT_TRUE(QTest::qWaitFor([&] { return asked && !window->exporting(); }, patience));
   }
   static QListWidgetItem* item_of(ExportDialog& dialog, const QString& name) {

@@ -52,7 +52,7 @@ class GuidanceTest : public MainWindowTest {
   }
   void bring_up(const char* dock) {
     window->findChild<QDockWidget*>(dock)->raise();
-    QTest::qWait(50);
+    ASSERT_TRUE(comes_to_rest());
   }
   double sharp_length() const {
     double length = 0.0;
@@ -81,7 +81,7 @@ TEST_F(GuidanceTest, ALooseEndIsListedZoomedToAndClosedByOneKey) {
   EXPECT_EQ(loose->vertices.front(), end);
   while (items[static_cast<std::size_t>(panel->current_row())].kind != WorkKind::loose_end)
     QTest::keyClick(window.get(), Qt::Key_F7);
-  QTest::qWait(200);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_NE(window->view().grabFramebuffer(), before);
   // What is in the middle of the view is near the loose end now, whatever side it was on.
   const auto pick = window->view().pick(window->view().rect().center());
@@ -247,7 +247,7 @@ TEST_F(GuidanceTest, WhatIsChosenInATableComesIntoSight) {
   window->view().look_from(MeshView::StandardView::front);
   auto* table = window->findChild<QDockWidget*>("lines")->findChild<QTableView*>();
   window->findChild<QDockWidget*>("lines")->raise();
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   for (int row = 0; row < table->model()->rowCount(); ++row) {
     const QRect cell = table->visualRect(table->model()->index(row, 0));
     table->scrollTo(table->model()->index(row, 0));
@@ -350,7 +350,7 @@ TEST_F(MainWindowTest, CutsForFourSidesAreWorkedOutForWhatIsLookedAtAndAccepted)
 
 TEST_F(GuidanceTest, NothingIsWorkedOutWhileNobodyLooks) {
   make_loose_end();
-  QTest::qWait(1000);
+  QTest::qWait(800);  // nothing may happen in this time: a list that is seen is begun after 400
   EXPECT_TRUE(window->worklist().items().empty());
 }
 
@@ -413,10 +413,10 @@ TEST_F(MainWindowTest, TheProfileAcrossALineOfAScanIsShown) {
   EXPECT_NEAR(chart->profile()->jump(), place.jump, 0.01) << "one value per meaning";
   const QString folder = qEnvironmentVariable("ARRIS_SHOTS");
   if (!folder.isEmpty()) {
-    QTest::qWait(200);
+    ASSERT_TRUE(comes_to_rest());
     window->grab().save(QDir(folder).filePath("explain_profile.png"));
     QTest::keyClick(window.get(), Qt::Key_D, Qt::ControlModifier);
-    QTest::qWait(200);
+    ASSERT_TRUE(comes_to_rest());
     window->grab().save(QDir(folder).filePath("explain_profile_dark.png"));
     QTest::keyClick(window.get(), Qt::Key_D, Qt::ControlModifier);
   }

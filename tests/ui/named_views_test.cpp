@@ -42,7 +42,7 @@ class NamedViews : public MainWindowTest {
       dialog->accept();
     });
     timer.start(20);
-    QTest::keyClick(window.get(), Qt::Key_V, Qt::ControlModifier | Qt::ShiftModifier);
+    press(Qt::Key_V, Qt::ControlModifier | Qt::ShiftModifier);
     ASSERT_TRUE(QTest::qWaitFor([&] { return asked; }, patience));
   }
   void two_views() {
@@ -209,7 +209,7 @@ TEST_F(NamedViews, AreSavedAsPicturesAllAtOnce) {
     }
   });
   timer.start(20);
-  QTest::keyClick(window.get(), Qt::Key_P, Qt::ControlModifier);
+  press(Qt::Key_P, Qt::ControlModifier);
   ASSERT_TRUE(QTest::qWaitFor([&] { return asked && chosen; }, patience));
   timer.stop();
   const QString part = QFileInfo(window->session().part_name()).completeBaseName();

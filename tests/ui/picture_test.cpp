@@ -39,7 +39,7 @@ class SavePicture : public MainWindowTest {
       }
     });
     timer.start(20);
-    QTest::keyClick(window.get(), Qt::Key_P, Qt::ControlModifier);
+    press(Qt::Key_P, Qt::ControlModifier);
     EXPECT_TRUE(QTest::qWaitFor([&] { return asked && chosen; }, patience));
     QImage image(path);
     QFile::remove(path);
@@ -104,7 +104,7 @@ TEST_F(SavePicture, OnPaperIsToScaleAndSaysItsResolution) {
   const double part = mesh.box_max().x() - mesh.box_min().x();  // mm, as the sample says
   for (const auto& [scale, factor] :
        std::vector<std::pair<QString, double>>{{"1:1", 1.0}, {"1:2", 0.5}}) {
-    const QImage image = saved([&](PictureDialog& dialog) {
+    const QImage image = saved([&, scale = scale](PictureDialog& dialog) {
       choose(dialog, "picture_unit", "Millimetres");
       dialog.findChild<QSpinBox*>("picture_dots")->setValue(150);
       dialog.findChild<QCheckBox*>()->setChecked(false);  // the proportion

@@ -68,7 +68,7 @@ TEST_F(WriteReport, WithPicturesAsAPageAndOnPaper) {
     }
   });
   timer.start(20);
-  QTest::keyClick(window.get(), Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
+  press(Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(QTest::qWaitFor([&] { return told; }, patience));
   EXPECT_FALSE(window->reports().writing());
 

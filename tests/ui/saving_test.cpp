@@ -105,7 +105,7 @@ class Saving : public MainWindowTest {
     ASSERT_FALSE(window->isWindowModified());
   }
   std::string hash_in(const QString& path) const {
-    return hash_of(testing::value_of(replay(path.toStdString())).history.current());
+    return hash_of(arris::testing::value_of(replay(path.toStdString())).history.current());
   }
   bool wait_until_open(MainWindow& other) {
     return QTest::qWaitFor(
@@ -150,8 +150,8 @@ TEST_F(Saving, AsksOnlyTheFirstTimeAndTheTitleTellsWhatIsNotSaved) {
             "/sessions/snapshot.key");
   ASSERT_TRUE(key.open(QIODevice::ReadOnly));
   EXPECT_EQ(key.permissions() & (QFile::ReadGroup | QFile::ReadOther), QFile::Permissions());
-  const auto session = testing::value_of(SessionFile::read(path.toStdString()));
-  EXPECT_TRUE(testing::value_of(session->snapshot(key.readAll().toStdString())));
+  const auto session = arris::testing::value_of(SessionFile::read(path.toStdString()));
+  EXPECT_TRUE(arris::testing::value_of(session->snapshot(key.readAll().toStdString())));
 
   edit(40.0);
   EXPECT_TRUE(window->isWindowModified());
@@ -417,7 +417,7 @@ TEST_F(Saving, AfterACrashTheViewIsTheLastOneSeen) {
   ASSERT_EQ(own.size(), 1);
   const auto kept = [&] {
     const auto session = SessionFile::read(recoveries.filePath(own[0]).toStdString());
-    return session ? testing::value_of((*session)->extras()).view : std::string();
+    return session ? arris::testing::value_of((*session)->extras()).view : std::string();
   };
   ASSERT_TRUE(QTest::qWaitFor([&] { return kept().find("IH") != std::string::npos; }, patience))
       << "it is kept by itself";
@@ -429,7 +429,7 @@ TEST_F(Saving, AfterACrashTheViewIsTheLastOneSeen) {
   answer("Go on");
   EXPECT_TRUE(other->offer_recovery());
   ASSERT_TRUE(wait_until_open(*other));
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_EQ(other->fields().field(), Field::ih);
   EXPECT_LT((other->view().camera().towards_viewer() - towards).norm(), 1e-9);
   other->session().mark_saved();
@@ -440,7 +440,7 @@ TEST_F(Saving, AfterACrashTheViewIsTheLastOneSeen) {
 TEST_F(Saving, ASessionWithoutAViewShowsItsPartitionsAndIsNotTalkedOver) {
   History history;
   const std::string part = folder.filePath("part.ply").toStdString();
-  ASSERT_TRUE(write_ply(part, *testing::mesh_of(testing::sample_mould(3.0)), {}));
+  ASSERT_TRUE(write_ply(part, *arris::testing::mesh_of(arris::testing::sample_mould(3.0)), {}));
   for (const Operation& operation : {Operation{"open", {{"file", part}}},
                                      Operation{"find_sharp_lines", nlohmann::json::object()},
                                      Operation{"find_partitions", nlohmann::json::object()}})
@@ -450,7 +450,7 @@ TEST_F(Saving, ASessionWithoutAViewShowsItsPartitionsAndIsNotTalkedOver) {
   window->tour().offer();
   window->open(path);
   ASSERT_TRUE(wait_until_open(*window));
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   bool partitions_shown = false;
   for (const QAction* a : window->findChildren<QAction*>())
     if (a->text() == "&Partitions" && a->isCheckable()) partitions_shown = a->isChecked();
@@ -459,9 +459,9 @@ TEST_F(Saving, ASessionWithoutAViewShowsItsPartitionsAndIsNotTalkedOver) {
     EXPECT_FALSE(card->inherits("arris::ui::TourCard") && card->isVisible());
   // Opened again, as when it is chosen among the recent ones, it is still this window's own.
   window->open(path);
-  QTest::qWait(50);
+  ASSERT_TRUE(window->session().busy());
   ASSERT_TRUE(wait_until_open(*window));
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_FALSE(window->session().is_read_only());
 }
 
@@ -550,8 +550,9 @@ TEST_F(Saving, AScanThatIsNotWhereItWasIsAskedFor) {
   const std::string part = folder.filePath("part.ply").toStdString();
   const std::string moved = folder.filePath("moved.ply").toStdString();
   const std::string wrong = folder.filePath("wrong.ply").toStdString();
-  ASSERT_TRUE(write_ply(part, *testing::mesh_of(testing::random_terrain(20, 3)), {}));
-  ASSERT_TRUE(write_ply(wrong, *testing::mesh_of(testing::random_terrain(20, 4)), {}));
+  ASSERT_TRUE(write_ply(part, *arris::testing::mesh_of(arris::testing::random_terrain(20, 3)), {}));
+  ASSERT_TRUE(
+      write_ply(wrong, *arris::testing::mesh_of(arris::testing::random_terrain(20, 4)), {}));
   History history;
   ASSERT_TRUE(history.run({"open", {{"file", part}}}));
   const QString session = folder.filePath("session.jsonl");

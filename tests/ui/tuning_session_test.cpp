@@ -36,14 +36,14 @@ class TuningSession : public MainWindowTest {
   void shot(const char* name) {
     const QString folder = qEnvironmentVariable("ARRIS_SHOTS");
     if (folder.isEmpty()) return;
-    QTest::qWait(150);
+    ASSERT_TRUE(comes_to_rest());
     window->grab().save(QDir(folder).filePath(QString(name) + ".png"));
   }
   /// Selects rows of a table by their ids: a click, then Ctrl-clicks.
   void select(const char* dock, const std::vector<std::uint32_t>& ids) {
     auto* panel = window->findChild<QDockWidget*>(dock);
     panel->raise();
-    QTest::qWait(30);
+    ASSERT_TRUE(comes_to_rest());
     auto* table = panel->findChild<QTableView*>();
     Qt::KeyboardModifiers modifiers;
     for (const std::uint32_t id : ids) {
@@ -86,7 +86,7 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   } else {
     open_sample();
   }
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   shot("01_open");
 
   // Prepare, find, and tune the sharp angle by its handle.
@@ -102,7 +102,7 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   QTest::mousePress(&histogram, Qt::LeftButton, {}, handle);
   for (int k = 1; k <= 6; ++k) {
     QTest::mouseMove(&histogram, handle + QPoint(2 * k, 0));
-    QTest::qWait(40);
+    QTest::qWait(40);  // as fast as a hand
   }
   QTest::mouseRelease(&histogram, Qt::LeftButton, {}, handle + QPoint(12, 0));
   ASSERT_TRUE(settles([&] {
@@ -241,19 +241,20 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   // All the way back, and all the way forth.
   const std::string end = hash_of(document());
   const std::uint32_t head = window->session().history().head();
-  for (int k = 0; k < 100 && window->session().history().head() > 1; ++k) {
+  const auto head_now = [&] { return window->session().history().head(); };
+  for (int k = 0; k < 100 && head_now() > 1; ++k) {
+    const std::uint32_t was = head_now();
     press(Qt::Key_Z, Qt::ControlModifier);
-    ASSERT_TRUE(settles([] { return true; }));
-    QTest::qWait(1);
+    ASSERT_TRUE(settles([&] { return head_now() < was; }));
   }
   EXPECT_EQ(window->session().history().head(), 1u);
   EXPECT_TRUE(document().lines.lines.empty());
   EXPECT_EQ(document().mesh, document().opened.mesh);
   shot("11_undone");
   for (int k = 0; k < 100 && window->session().history().can_redo(); ++k) {
+    const std::uint32_t was = head_now();
     press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
-    ASSERT_TRUE(settles([] { return true; }));
-    QTest::qWait(1);
+    ASSERT_TRUE(settles([&] { return head_now() > was; }));
   }
   EXPECT_EQ(window->session().history().head(), head);
   EXPECT_EQ(hash_of(document()), end);
@@ -403,7 +404,7 @@ TEST_F(TuningSession, AnEditedCardSaysSoAndF5RunsIt) {
   EXPECT_FALSE(says_changed());
   EXPECT_FALSE(panel->is_edited("find_sharp_lines"));
   press(Qt::Key_Tab);  // the field is left as it was run
-  QTest::qWait(200);
+  QTest::qWait(200);   // nothing may happen in this time
   EXPECT_EQ(rows(), before + 2);
   EXPECT_FALSE(document().step("find_partitions")->out_of_date);
   box->setFocus();

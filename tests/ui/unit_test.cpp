@@ -27,10 +27,10 @@ class UnitOfLengths : public MainWindowTest {
  protected:
   /// Writes a part a hand large, `scale` of its millimetres to a unit, and opens it.
   QString open_part(double scale, const QString& name = "part.ply") {
-    testing::Triangles part = testing::sample_mould(3.0);
+    arris::testing::Triangles part = arris::testing::sample_mould(3.0);
     for (Point& p : part.points) p *= scale;
     const QString path = folder.filePath(name);
-    EXPECT_TRUE(write_ply(path.toStdString(), *testing::mesh_of(part), {}));
+    EXPECT_TRUE(write_ply(path.toStdString(), *arris::testing::mesh_of(part), {}));
     open(path);
     return path;
   }
@@ -39,7 +39,7 @@ class UnitOfLengths : public MainWindowTest {
     window->session().mark_saved();  // nobody is there to answer
     window->open(path);
     ASSERT_TRUE(QTest::qWaitFor([&] { return document().scan != before && idle(); }, patience));
-    QTest::qWait(50);
+    ASSERT_TRUE(comes_to_rest());
   }
   UnitBar& bar() { return *window->findChild<UnitBar*>(); }
   QString question() { return bar().findChild<QLabel*>()->text(); }
@@ -53,7 +53,7 @@ class UnitOfLengths : public MainWindowTest {
     ASSERT_NE(button, nullptr) << qPrintable(text);
     QTest::mouseClick(button, Qt::LeftButton);
     ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
-    QTest::qWait(50);
+    ASSERT_TRUE(comes_to_rest());
   }
   QAction* in_menu(const QString& text) {
     for (QAction* a : window->findChildren<QAction*>())
@@ -128,7 +128,7 @@ TEST_F(UnitOfLengths, IsAskedForOnceBesideThePartAndToldEverywhere) {
   QTest::keySequence(window.get(), QKeySequence::Undo);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] { return length_unit_of(document()) == LengthUnit::unknown && idle(); }, patience));
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_FALSE(bar().isVisible());
   EXPECT_TRUE(header("lines").contains("Length"));
   EXPECT_TRUE(in_menu("Not known")->isChecked());
@@ -163,7 +163,7 @@ TEST_F(UnitOfLengths, MayStayUnknownAndIsNotAskedForAgain) {
   ASSERT_NE(in_menu("Inches"), nullptr);
   in_menu("Inches")->trigger();
   ASSERT_TRUE(QTest::qWaitFor([&] { return idle() && rows() == 2; }, patience));
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_EQ(length_unit_of(document()), LengthUnit::inch);
   EXPECT_TRUE(header("lines").contains("Length in"));
   EXPECT_TRUE(in_menu("Inches")->isChecked());

@@ -29,7 +29,7 @@ class Versions : public MainWindowTest {
     ASSERT_TRUE(QTest::qWaitFor(
         [&] { return idle() && (!comparison().active() || comparison().comparison().has_value()); },
         patience));
-    QTest::qWait(80);
+    ASSERT_TRUE(comes_to_rest());
   }
   void find_lines(double angle) { run({"find_sharp_lines", {{"angle", angle}}}); }
 
@@ -47,8 +47,8 @@ class Versions : public MainWindowTest {
   void name_version(const QString& name) {
     answer_name(name);
     QTest::keySequence(window.get(), QKeySequence("Ctrl+Shift+N"));
-    window->activateWindow();
-    QTest::qWait(50);
+    window->activateWindow();  // no window manager gives the focus back after a dialog
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), patience));
   }
   void toggle_comparison() {
     QTest::keySequence(window.get(), QKeySequence("Ctrl+K"));
@@ -106,7 +106,7 @@ TEST_F(Versions, AreNamedByKeyboardAndStayInReachFromOtherBranches) {
   QListWidget* list = rows_shown();
   EXPECT_TRUE(list->item(row - 1)->text().contains("other branches"));
   window->findChild<QDockWidget*>("history")->raise();
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   list->scrollToItem(list->item(row));
   QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
                     list->visualItemRect(list->item(row - 1)).center());
@@ -301,7 +301,7 @@ TEST_F(Versions, ChangingTheVersionQuicklyShowsTheLastOneChosen) {
   for (int round = 0; round < 4; ++round)
     for (std::uint32_t row = last - 1; row >= 1; --row) {
       comparison().compare_with(row);
-      QTest::qWait(static_cast<int>(row % 3) * 8);
+      QTest::qWait(static_cast<int>(row % 3) * 8);  // at once, or in the middle of the work
     }
   ASSERT_TRUE(QTest::qWaitFor([&] { return idle(); }, patience));
   comparison().compare_with(2);
@@ -342,7 +342,7 @@ TEST_F(Versions, AFittedPartIsFittedInTheRoomThereIs) {
   find_lines(30.0);
   MeshView& view = window->view();
   view.fit();
-  QTest::qWait(50);
+  ASSERT_TRUE(comes_to_rest());
   ASSERT_TRUE(view.is_fitted());
   ASSERT_NO_FATAL_FAILURE(toggle_comparison());
   EXPECT_TRUE(view.is_fitted());

@@ -34,11 +34,10 @@ TEST_F(MeshViewTest, FillsTheWidgetAfterEachResize) {
   field.scale.undefined = Qt::blue;
   view_.set_field(field);
   for (const QSize size : {QSize(700, 300), QSize(301, 449), QSize(500, 400)}) {
-    view_.resize(size);
-    QTest::qWait(30);
+    ASSERT_TRUE(resize(size));
     view_.zoom_to({0, static_cast<VertexId>(plane(10.0, 1.0)->vertex_count() - 1)});
+    QCoreApplication::processEvents();  // drawn once as it is
     // Closer, so that the plane covers every pixel.
-    QTest::qWait(10);
     QWheelEvent wheel(QPointF(middle()), view_.mapToGlobal(QPointF(middle())), {}, {0, 1800},
                       Qt::NoButton, {}, Qt::NoScrollPhase, false);
     QApplication::sendEvent(&view_, &wheel);
@@ -398,8 +397,7 @@ TEST_F(MeshViewTest, SurvivesMovingToAnotherWindow) {
 /// Run by ScaleFactors in a process of its own.
 TEST_F(MeshViewTest, FitsItsScaleFactor) {
   const MeshPtr mesh = plane(10.0, 1.0);
-  view_.resize(333, 251);
-  QTest::qWait(50);
+  ASSERT_TRUE(resize({333, 251}));
   view_.set_mesh(mesh, false);
   view_.look_from(MeshView::StandardView::top);
   if (qEnvironmentVariableIsSet("ARRIS_EXPECTED_RATIO")) {

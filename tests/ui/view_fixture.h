@@ -12,6 +12,7 @@
 #include <QOpenGLFunctions>
 #include <QSignalSpy>
 #include <QTest>
+#include <QWindow>
 
 #include "tests/support/meshes.h"
 #include "ui/view/mesh_view.h"
@@ -113,6 +114,14 @@ class MeshViewTest : public ::testing::Test {
   }
   void TearDown() override { EXPECT_EQ(gl_error(view_), GLenum{GL_NO_ERROR}); }
 
+  /// Returns once the window system has resized the window, too: what it tells late of one size
+  /// would undo the next.
+  [[nodiscard]] bool resize(const QSize& size) {
+    const QWindow* window = view_.windowHandle();
+    const QSignalSpy width(window, &QWindow::widthChanged), height(window, &QWindow::heightChanged);
+    view_.resize(size);
+    return QTest::qWaitFor([&] { return !width.isEmpty() || !height.isEmpty(); }, 10000);
+  }
   QImage grab() { return view_.grabFramebuffer(); }
   QPoint middle() const { return {view_.width() / 2, view_.height() / 2}; }
   QRgb middle_colour() {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <QApplication>
@@ -28,6 +29,37 @@ namespace arris::ui {
 
 inline constexpr int patience = 60000;  // ms
 
+/// Counts what keeps a machine busy: layouts and drawing.
+class Drawing : public QObject {
+ public:
+  Drawing() { qApp->installEventFilter(this); }
+  /// Since it was last asked.
+  int count() { return std::exchange(count_, 0); }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    count_ += event->type() == QEvent::LayoutRequest || event->type() == QEvent::UpdateRequest ||
+              event->type() == QEvent::Paint;
+    return QObject::eventFilter(watched, event);
+  }
+
+ private:
+  int count_ = 0;
+};
+
+/// Returns once all that was asked for is laid out and drawn: two rounds of events in a row had
+/// nothing of that. One is not enough, as what a timer puts off comes in the next.
+[[nodiscard]] inline bool comes_to_rest() {
+  Drawing drawing;
+  int quiet = -1;  // rounds; none has been yet
+  return QTest::qWaitFor(
+      [&] {
+        quiet = drawing.count() == 0 ? quiet + 1 : 0;
+        return quiet == 2;
+      },
+      patience);
+}
+
 class MainWindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -45,7 +77,14 @@ class MainWindowTest : public ::testing::Test {
   void open_sample() {
     window->open_sample();
     ASSERT_TRUE(QTest::qWaitFor([&] { return !document().empty() && idle(); }, patience));
-    QTest::qWait(50);
+    ASSERT_TRUE(comes_to_rest());
+  }
+  /// Shortcuts are those of the active window, which no window manager gives back after a dialog.
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+    window->activateWindow();
+    QApplication::setActiveWindow(window.get());
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), patience));
+    QTest::keyClick(window.get(), key, modifiers);
   }
   void TearDown() override {
     window->session().mark_saved();  // nobody is there to answer

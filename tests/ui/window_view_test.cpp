@@ -336,14 +336,14 @@ TEST_F(MainWindowTest, TheFittedPartIsClearOfBarAndLegendThroughoutAFirstRun) {
   EXPECT_TRUE(window->view().is_fitted());
   EXPECT_TRUE(clear(true, false));
   run_both();
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_TRUE(window->view().is_fitted());
   EXPECT_TRUE(clear(false, true));
   window->set_field(Field::kabs);
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_TRUE(clear(true, true)) << "a field was switched on";
   window->set_field(Field::shape);
-  QTest::qWait(100);
+  ASSERT_TRUE(comes_to_rest());
   EXPECT_TRUE(clear(true, true)) << "its legend is wider";
 }
 

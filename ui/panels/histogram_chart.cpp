@@ -377,7 +377,8 @@ void HistogramChart::paint_handle(QPainter& painter, int i, const Layout& at) co
   const int x = line_x(i, at.plot);
 
   painter.setRenderHint(QPainter::Antialiasing, true);
-  const double middle = std::clamp<double>(x, label.left() + 6, label.right() - 6) + 0.5;
+  const double inset = std::min(6.0, 0.5 * (label.width() - 1));  // of a narrow panel's labels less
+  const double middle = std::clamp<double>(x, label.left() + inset, label.right() - inset) + 0.5;
   const QPointF foot(x + 0.5, at.plot.top() - 1);
   QPainterPath path(QPointF(middle, label.bottom() + 1));
   if (std::abs(middle - foot.x()) < 1.0) path.moveTo(foot.x(), label.bottom() + 1);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include <QCoreApplication>
+#include "ui/view/translated.h"
 
 namespace arris::ui {
 namespace {
@@ -102,9 +102,6 @@ QColor soft_colour(std::size_t k) {
 }  // namespace
 
 QStringList colour_map_names() {
-  const auto translated = [](const char* text) {
-    return QCoreApplication::translate("arris::ui::ColourScale", text);
-  };
   return {translated("Black, green, red (paper)"), translated("Viridis"), translated("Cividis"),
           translated("Blue, white, red")};
 }

@@ -3,12 +3,13 @@
 #include <dlfcn.h>
 
 #include <vtkVersion.h>
-#include <QCoreApplication>
 #include <QGuiApplication>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 #include <QSurfaceFormat>
+
+#include "ui/view/translated.h"
 
 namespace arris::ui {
 
@@ -16,10 +17,6 @@ namespace {
 
 constexpr int least_major = 3, least_minor = 2;  // of OpenGL, for VTK
 QString found;                                   // by why_nothing_can_be_drawn()
-
-QString translated(const char* text) {
-  return QCoreApplication::translate("arris::ui::Graphics", text);
-}
 
 QString text_of(QOpenGLFunctions& functions, GLenum name) {
   return QString::fromLatin1(reinterpret_cast<const char*>(functions.glGetString(name)));

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include <QCoreApplication>
 #include <QMouseEvent>
 
 #include "core/base/number_text.h"
 #include "core/mesh/brush.h"
 #include "ui/view/mesh_view_impl.h"
+#include "ui/view/translated.h"
 
 namespace arris::ui {
 namespace {
@@ -18,10 +18,6 @@ constexpr int drag_threshold = 3;  // logical pixels before a press becomes a dr
 constexpr double radians_per_pixel = 0.0075;
 constexpr double wheel_zoom = 1.18;
 constexpr double wheel_radius = 1.12;
-
-QString translated(const char* text) {
-  return QCoreApplication::translate("arris::ui::MeshView", text);
-}
 
 /// The vertex of a line that is drawn nearest to a position.
 VertexId nearest_vertex(const PickSpace& space, const std::vector<ViewLine>& lines,

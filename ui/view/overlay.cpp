@@ -3,22 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPainter>
 #include <QPainterPath>
 
 #include "ui/view/scene.h"
+#include "ui/view/translated.h"
 
 namespace arris::ui {
 namespace {
 
 constexpr double margin = 14.0;  // between the view's rim and what is written
 constexpr double padding = 9.0;  // between a panel's rim and its text
-
-QString translated(const char* text) {
-  return QCoreApplication::translate("arris::ui::Overlay", text);
-}
 
 struct Look {
   QColor text, faint, panel, rim;

@@ -10,7 +10,7 @@ namespace arris::ui {
 namespace {
 
 constexpr double ring_radius = 7.0;
-constexpr double padding = 7.0;
+constexpr double inset = 7.0;
 const QColor ink(20, 26, 36);
 const QColor accent(0, 122, 204);  // of what the user draws
 const QColor mark_colour(214, 0, 90);
@@ -28,7 +28,7 @@ QRectF box_of(const QStringList& lines, const QPointF& beside, QSizeF view) {
   for (int k = 0; k < lines.size(); ++k)
     width = std::max(width, QFontMetricsF(text_font(k == 0)).horizontalAdvance(lines[k]));
   const double line = QFontMetricsF(text_font(false)).height();
-  const QSizeF size(width + 2 * padding, line * static_cast<double>(lines.size()) + padding);
+  const QSizeF size(width + 2 * inset, line * static_cast<double>(lines.size()) + inset);
   constexpr double away = 14.0;
   double x = beside.x() + away;
   if (x + size.width() > view.width() - 4.0) x = beside.x() - away - size.width();
@@ -44,10 +44,10 @@ void paint_box(QPainter& painter, const QRectF& box, const QStringList& lines, b
   painter.drawRoundedRect(box, 5.0, 5.0);
   painter.setPen(dark ? QColor(232, 235, 240) : ink);
   const double line = QFontMetricsF(text_font(false)).height();
-  double y = box.top() + padding / 2;
+  double y = box.top() + inset / 2;
   for (int k = 0; k < lines.size(); ++k, y += line) {
     painter.setFont(text_font(k == 0));
-    painter.drawText(QRectF(box.left() + padding, y, box.width(), line),
+    painter.drawText(QRectF(box.left() + inset, y, box.width(), line),
                      Qt::AlignLeft | Qt::AlignVCenter | Qt::TextSingleLine | Qt::TextDontClip,
                      lines[k]);
   }

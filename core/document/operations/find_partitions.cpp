@@ -10,7 +10,7 @@ namespace arris {
 
 namespace {
 
-PartitionMethod method_in(const nlohmann::json& parameters) {
+PartitionMethod partition_method_in(const nlohmann::json& parameters) {
   return parameters.at("method") == "surfaces" ? PartitionMethod::surfaces
                                                : PartitionMethod::fronts;
 }
@@ -34,7 +34,7 @@ nlohmann::json intervals_of_part(const DefaultFrom& from) {
 }
 
 nlohmann::json least_faces(const DefaultFrom& from) {
-  return default_min_faces(*from.document.mesh, method_in(from.resolved));
+  return default_min_faces(*from.document.mesh, partition_method_in(from.resolved));
 }
 
 nlohmann::json speck_faces(const DefaultFrom& from) {

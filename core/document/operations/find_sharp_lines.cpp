@@ -11,19 +11,19 @@ namespace {
 
 // Defaults come from the scan: a simplified mesh has sharp angles everywhere and long edges.
 
-LineMethod method_in(const nlohmann::json& parameters) {
+LineMethod line_method_in(const nlohmann::json& parameters) {
   return parameters.at("method") == "walk" ? LineMethod::walk : LineMethod::normal_jump;
 }
 
 nlohmann::json sharp_angle_of_scan(const DefaultFrom& from) {
   const Stage& scan = from.document.opened;
-  return default_sharp_angle(*scan.mesh, *scan.curvatures, method_in(from.resolved));
+  return default_sharp_angle(*scan.mesh, *scan.curvatures, line_method_in(from.resolved));
 }
 nlohmann::json length_of_noise(const DefaultFrom& from) {
-  return default_min_length(*from.document.opened.mesh, method_in(from.resolved));
+  return default_min_length(*from.document.opened.mesh, line_method_in(from.resolved));
 }
 nlohmann::json gap_of_noise(const DefaultFrom& from) {
-  return default_bridge_gap(*from.document.opened.mesh, method_in(from.resolved));
+  return default_bridge_gap(*from.document.opened.mesh, line_method_in(from.resolved));
 }
 
 Result<Document> apply_lines(const Document& document, const nlohmann::json& parameters,

@@ -85,6 +85,14 @@ void complete_areas(ParameterReader& reader, const json& own) {
   reader.set("areas", areas.is_null() ? own : areas);
 }
 
+/// As a journal can hold them: areas of a part of absurd size are infinite, or no numbers.
+json listed(std::vector<double> areas) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (double& area : areas)
+    if (!(area < largest)) area = largest;
+  return areas;
+}
+
 void complete_extend(ParameterReader& reader) {
   json own;
   if (reader.given("areas").is_null()) {
@@ -96,12 +104,12 @@ void complete_extend(ParameterReader& reader) {
         partitions.push_back(partition);
     if (const auto gained =
             extend_all(ground, partitions, interval_of(reader.resolved("interval"))))
-      own = *gained;
+      own = listed(*gained);
   }
   complete_areas(reader, own);
 }
 
-Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> extend_partition(Ground& ground, const json& parameters, Round round) {
   TreatmentOutcome outcome;
   const std::vector<PartitionPtr> partitions = find_all(ground, parameters, round, outcome);
   if (partitions.empty()) return fail(outcome.adapted);
@@ -129,15 +137,15 @@ Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round ro
 /// Version 1 extended a single partition.
 json upgrade_extend(int, json parameters) { return with_lists(std::move(parameters)); }
 
-std::string words_of_extend(const json& parameters) {
+std::string words_of_partition_extend(const json& parameters) {
   return of_partition("Extend", parameters) + interval_after_comma(parameters);
 }
 
 void complete_remove(ParameterReader& reader) {
-  json own = json::array();
+  std::vector<double> own;
   for (const std::uint32_t id : ids_of(reader.resolved("partitions")))
     own.push_back(reader.document().partitions.find(id)->area);
-  complete_areas(reader, own);
+  complete_areas(reader, listed(std::move(own)));
 }
 
 Result<TreatmentOutcome> remove(Ground& ground, const json& parameters, Round round) {
@@ -253,12 +261,12 @@ std::vector<OperationKind> area_treatment_rows() {
        .version = 2,
        .parameters = {partitions_parameter(), interval,
                       areas_parameter("What each gained: done again, it may not flood.")},
-       .words = words_of_extend,
+       .words = words_of_partition_extend,
        .ready = needs_partitions,
        .understood = understood_extend,
        .complete = complete_extend,
        .upgrade = upgrade_extend,
-       .treat = extend,
+       .treat = extend_partition,
        .belongs = after_partitions},
       {.name = "remove_partitions",
        .title = "Remove partitions",

@@ -29,7 +29,7 @@ std::string of_line(const char* done, const json& parameters) {
 
 std::string words_of_delete(const json& parameters) { return of_line("Delete", parameters); }
 std::string words_of_trim(const json& parameters) { return of_line("Trim", parameters); }
-std::string words_of_split(const json& parameters) { return of_line("Split", parameters); }
+std::string words_of_line_split(const json& parameters) { return of_line("Split", parameters); }
 std::string words_of_reroute(const json& parameters) { return of_line("Reroute", parameters); }
 
 void complete_delete(ParameterReader& reader) {
@@ -41,7 +41,7 @@ Result<TreatmentOutcome> delete_lines(Ground& ground, const json& parameters, Ro
   return TreatmentOutcome{};
 }
 
-Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> extend_line(Ground& ground, const json& parameters, Round round) {
   TreatmentOutcome outcome;
   const Path anchor = path_of(parameters.at("path"));
   const Result<LinePtr> line = find_line(ground, parameters.at("line"), anchor, round, outcome);
@@ -65,7 +65,7 @@ Result<TreatmentOutcome> extend(Ground& ground, const json& parameters, Round ro
   return outcome;
 }
 
-std::string words_of_extend(const json& parameters) {
+std::string words_of_line_extend(const json& parameters) {
   return of_line("Extend", parameters) +
          (parameters.contains("angle")
               ? " down to " + degrees_in_words(parameters["angle"].get<double>())
@@ -102,7 +102,7 @@ void complete_split(ParameterReader& reader) {
     reader.fault("vertex", "a vertex inside the line");
 }
 
-Result<TreatmentOutcome> split(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> split_line(Ground& ground, const json& parameters, Round) {
   const VertexId vertex = parameters.at("vertex");
   if (sharp_edges_at(ground.mesh, ground.lines, vertex).size() != 2)
     return fail("No single line runs through that point, so there is none to split.");
@@ -207,7 +207,7 @@ Result<TreatmentOutcome> reroute(Ground& ground, const json& parameters, Round r
   return TreatmentOutcome{};
 }
 
-Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> recompute_line(Ground& ground, const json& parameters, Round) {
   SharpLineOptions options = line_options_of(parameters);
   if (ground.evidence) {
     options.method = LineMethod::normal_jump;
@@ -229,7 +229,7 @@ Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round
   return TreatmentOutcome{};
 }
 
-std::string words_of_recompute(const json& parameters) {
+std::string words_of_line_recompute(const json& parameters) {
   const std::string what = parameters.contains("region") ? "Find lines again in a region"
                                                          : of_line("Recompute", parameters);
   if (!parameters.contains("angle")) return what;
@@ -296,8 +296,8 @@ OperationKind recompute_lines_row() {
           .title = "Recompute lines",
           .help = "Finds lines again, or in a region, under an angle of their own.",
           .parameters = parameters,
-          .words = words_of_recompute,
-          .treat = recompute,
+          .words = words_of_line_recompute,
+          .treat = recompute_line,
           .belongs = after_lines};
 }
 
@@ -331,8 +331,8 @@ std::vector<OperationKind> line_treatment_rows() {
              .least = 1,
              .most = 32,
              .otherwise = SharpLineOptions().candidates}},
-       .words = words_of_extend,
-       .treat = extend,
+       .words = words_of_line_extend,
+       .treat = extend_line,
        .belongs = after_lines},
       {.name = "trim_line",
        .title = "Trim line",
@@ -354,9 +354,9 @@ std::vector<OperationKind> line_treatment_rows() {
        .help = "Makes two lines of one at a vertex.",
        .parameters = {line_parameter(false),
                       vertex_parameter("vertex", "Where it is split, inside the line.")},
-       .words = words_of_split,
+       .words = words_of_line_split,
        .complete = complete_split,
-       .treat = split,
+       .treat = split_line,
        .belongs = after_lines},
       {.name = "merge_lines",
        .title = "Merge lines",

@@ -22,10 +22,12 @@ std::string words_of_connect(const json& parameters) { return of_partition("Conn
 std::string words_of_restart(const json& parameters) {
   return of_partition("Restart", parameters) + interval_after_comma(parameters);
 }
-std::string words_of_recompute(const json& parameters) {
+std::string words_of_partition_recompute(const json& parameters) {
   return "Find partitions again in a region" + interval_after_comma(parameters);
 }
-std::string words_of_split(const json& parameters) { return of_partition("Split", parameters); }
+std::string words_of_partition_split(const json& parameters) {
+  return of_partition("Split", parameters);
+}
 std::string words_of_four_sides(const json& parameters) {
   return of_partition("Cut", parameters) + " into four sides";
 }
@@ -153,7 +155,7 @@ std::vector<FaceId> open_faces(const Ground& ground, const BrushedRegion& region
   return faces;
 }
 
-Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round) {
+Result<TreatmentOutcome> recompute_partition(Ground& ground, const json& parameters, Round) {
   const std::vector<FaceId> faces = open_faces(ground, region_of(parameters.at("region")), nullptr);
   if (faces.empty())
     return fail("There is no face in the region that is not locked: brush a wider one.");
@@ -162,7 +164,7 @@ Result<TreatmentOutcome> recompute(Ground& ground, const json& parameters, Round
   return TreatmentOutcome{};
 }
 
-Result<TreatmentOutcome> split(Ground& ground, const json& parameters, Round round) {
+Result<TreatmentOutcome> split_partition(Ground& ground, const json& parameters, Round round) {
   TreatmentOutcome outcome;
   const Result<PartitionPtr> partition = find_one(ground, parameters, round, outcome);
   if (!partition) return tl::unexpected<Error>(partition.error());
@@ -416,8 +418,8 @@ std::vector<OperationKind> partition_treatment_rows() {
        .title = "Recompute partitions",
        .help = "Finds partitions again in a region, under an interval of their own.",
        .parameters = {region_parameter(), interval_parameter(), min_faces_parameter()},
-       .words = words_of_recompute,
-       .treat = recompute,
+       .words = words_of_partition_recompute,
+       .treat = recompute_partition,
        .belongs = after_partitions},
       {.name = "split_partition",
        .title = "Split partition",
@@ -434,8 +436,8 @@ std::vector<OperationKind> partition_treatment_rows() {
                        .least = 0.1,
                        .most = 179.9,
                        .otherwise = SharpLineOptions().angle}},
-       .words = words_of_split,
-       .treat = split,
+       .words = words_of_partition_split,
+       .treat = split_partition,
        .belongs = after_partitions},
       {.name = "split_to_four_sides",
        .title = "Split to four sides",

@@ -276,10 +276,10 @@ SharpLineOptions line_options_of(const nlohmann::json& parameters) {
   return options;
 }
 
-Path path_of(const nlohmann::json& json) { return json.get<Path>(); }
-std::vector<Path> paths_of(const nlohmann::json& json) { return json.get<std::vector<Path>>(); }
-std::vector<std::uint32_t> ids_of(const nlohmann::json& json) {
-  return json.get<std::vector<std::uint32_t>>();
+Path path_of(const nlohmann::json& given) { return given.get<Path>(); }
+std::vector<Path> paths_of(const nlohmann::json& given) { return given.get<std::vector<Path>>(); }
+std::vector<std::uint32_t> ids_of(const nlohmann::json& given) {
+  return given.get<std::vector<std::uint32_t>>();
 }
 
 std::string interval_in_words(const CurvatureInterval& interval) {
@@ -299,12 +299,12 @@ std::string targets_in_words(const nlohmann::json& parameters, const std::string
   return named(ids_of(*ids), one, many);
 }
 
-BrushedRegion region_of(const nlohmann::json& json) {
-  return {json.at("vertices").get<Path>(), json.at("radius")};
+BrushedRegion region_of(const nlohmann::json& given) {
+  return {given.at("vertices").get<Path>(), given.at("radius")};
 }
-CurvatureInterval interval_of(const nlohmann::json& json) {
-  return {json[0],
-          json[1].is_null() ? std::numeric_limits<double>::infinity() : json[1].get<double>()};
+CurvatureInterval interval_of(const nlohmann::json& given) {
+  return {given[0],
+          given[1].is_null() ? std::numeric_limits<double>::infinity() : given[1].get<double>()};
 }
 
 Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,

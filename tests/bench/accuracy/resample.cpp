@@ -79,7 +79,7 @@ std::vector<double> distances_at_nodes(const Solid& solid, const Eigen::Matrix3d
   const Eigen::Matrix3d back = turned.transpose();
   parallel_for(
       static_cast<std::size_t>(layers),
-      [&](std::size_t layer) {
+      [&, columns = columns, rows = rows](std::size_t layer) {
         const int z = static_cast<int>(layer);
         for (int y = 0; y < rows; ++y)
           for (int x = 0; x < columns; ++x)

@@ -88,7 +88,7 @@ const std::vector<Column>& columns() {
   return table;
 }
 
-double fold(const std::vector<const Row*>& rows, const Column& column) {
+double folded(const std::vector<const Row*>& rows, const Column& column) {
   double sum = 0.0, count = 0.0;
   for (const Row* row : rows)
     if (const double value = column.value(*row); !std::isnan(value)) {
@@ -173,7 +173,7 @@ Table group_table(const std::vector<Row>& rows) {
   for (const Group& group : groups_of(rows)) {
     std::vector<std::string> cells{group.name, group.method, std::to_string(group.rows.size())};
     for (const Column& column : columns())
-      cells.push_back(cell(fold(group.rows, column), column.decimals));
+      cells.push_back(cell(folded(group.rows, column), column.decimals));
     cells.push_back(cell(worst_f1(group.rows), 3));
     cells.push_back(cell(worst_per_target(group.rows), 2));
     cells.push_back(cell(worst_right(group.rows), 2));
