@@ -114,10 +114,13 @@ void StepCardFrame::build_controls(QVBoxLayout* column) {
   result_->setWordWrap(true);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column->addWidget(result_);
-  form_ = new QGridLayout;
-  form_->setHorizontalSpacing(8);
-  form_->setVerticalSpacing(4);
-  form_->setColumnStretch(1, 1);
+  if (!card_.parameters.empty()) {
+    form_ = new QGridLayout;
+    form_->setHorizontalSpacing(8);
+    form_->setVerticalSpacing(4);
+    form_->setColumnStretch(1, 1);
+    column->addLayout(form_);
+  }
   for (const StepParameter& parameter : card_.parameters) {
     fields_.push_back(make_step_field(parameter, this));
     StepField* field = fields_.back().get();
@@ -146,7 +149,6 @@ void StepCardFrame::build_controls(QVBoxLayout* column) {
     if (!field->wide()) label->setBuddy(field->widget());
     labels_.push_back(label);
   }
-  if (!fields_.empty()) column->addLayout(form_);
   arrange_form();
   auto* foot = new QHBoxLayout;
   state_ = new MutedLabel({}, this);
