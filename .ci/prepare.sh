@@ -10,7 +10,7 @@ packages=(
   build-essential cmake ninja-build ccache
   qt6-base-dev libqt6opengl6-dev libqt6svg6 libvtk9-dev
   libopenmesh-dev libeigen3-dev libtbb-dev libxxhash-dev
-  nlohmann-json3-dev libcli11-dev libexpected-dev libgtest-dev
+  nlohmann-json3-dev libcli11-dev libexpected-dev libgtest-dev librapidcheck-dev libbenchmark-dev
   pkg-config zlib1g-dev libexpat1-dev libzip-dev libsqlite3-dev
   xvfb xauth libgl1-mesa-dri fonts-dejavu-core
   desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db  # judge what is installed

@@ -9,14 +9,8 @@
 #include <map>
 #include <set>
 
-#ifdef _WIN32
-#include <io.h>
-#else
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
-
 #include "core/base/number_text.h"
+#include "core/base/process.h"
 #include "core/base/write_file.h"
 #include "core/document/comparison.h"
 #include "core/document/document.h"
@@ -35,23 +29,9 @@ namespace arris::commands {
 
 namespace {
 
-double peak_memory_mb() {
-#ifdef _WIN32
-  return 0.0;
-#else
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-#endif
-}
-
 /// Progress on standard error, only where that is a terminal.
 Context progress_context() {
-#ifdef _WIN32
-  if (!_isatty(2)) return {};
-#else
-  if (!isatty(2)) return {};
-#endif
+  if (!is_error_on_a_terminal()) return {};
   return Context([last = -1](double fraction, std::string_view what) mutable {
     const int percent = static_cast<int>(100.0 * fraction);
     if (percent == last) return;
@@ -131,7 +111,7 @@ Result<void> write_results(const ResultPlaces& places, const History& history,
     extras.part = std::filesystem::path(document.scan_path).filename().string();
     if (auto r = save_session(places.session, history, extras, progress_context()); !r) return r;
   }
-  summary["peak_memory_mb"] = rounded(peak_memory_mb(), 4);
+  summary["peak_memory_mb"] = rounded(static_cast<double>(peak_memory()) / (1u << 20), 4);
   return write_file_whole(path(summary_name), summary.dump(2) + "\n");
 }
 

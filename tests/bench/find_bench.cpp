@@ -4,87 +4,88 @@
 //
 //   arris_find_bench SCAN     (for a million faces: any scan of that size)
 
-#include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <vector>
 
-#include "core/base/number_text.h"
 #include "core/document/document.h"
 #include "core/document/operation.h"
+#include "tests/bench/beside.h"
+#include "tests/support/documents.h"
 
 namespace {
 
 using namespace arris;
+using nlohmann::json;
 
-double seconds_of(const Document& document, const Operation& operation, Document& result) {
-  const auto start = std::chrono::steady_clock::now();
-  Result<Document> done = apply(document, operation);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  if (!done) {
-    std::cerr << "arris_find_bench: " << done.error().message << "\n";
-    std::exit(1);
-  }
-  result = std::move(*done);
-  return spent.count();
+/// An operation as if it were the first: `from` has nothing yet that such work leaves behind.
+bench::Side once(const std::string& name, const Document& from, const Operation& operation) {
+  return {name,
+          [&from, operation](benchmark::State& state) {
+            for (auto _ : state) {
+              state.PauseTiming();
+              Document fresh = from;
+              fresh.evidence =
+                  std::make_shared<const SharedLineEvidence>(fresh.mesh, fresh.curvatures);
+              fresh.opened.evidence = fresh.evidence;
+              fresh.areas = nullptr;
+              if (operation.name == "find_partitions") fresh.evidence = from.evidence;
+              state.ResumeTiming();
+              const Document done = arris::testing::applied(fresh, operation);
+              state.counters["lines"] = static_cast<double>(done.lines.lines.size());
+              state.counters["partitions"] = static_cast<double>(done.partitions.partitions.size());
+            }
+          },
+          3};
 }
 
-/// The median time of a move of one parameter of a step, all others as they were resolved.
-double slider_seconds(const Document& found, std::string_view step, const char* name,
-                      const std::vector<nlohmann::json>& values) {
-  std::vector<double> times;
-  nlohmann::json parameters = found.step(step)->parameters;
-  for (const nlohmann::json& value : values) {
-    parameters[name] = value;
-    Document moved;
-    times.push_back(seconds_of(found, {std::string(step), parameters}, moved));
-  }
-  std::sort(times.begin(), times.end());
-  return times[times.size() / 2];
-}
-
-void print_row(const char* what, const char* peer, double by_peer, const char* own, double by_own) {
-  std::cout << what << ": " << peer << " " << number_text(1e3 * by_peer, 3) << " ms, " << own << " "
-            << number_text(1e3 * by_own, 3) << " ms, ratio " << number_text(by_own / by_peer, 3)
-            << "\n";
+/// Moves of one parameter of a step that was done, all others as they were resolved.
+bench::Side moves(const std::string& name, const Document& found, std::string_view step,
+                  const char* parameter, const std::vector<json>& values) {
+  return {
+      name,
+      [&found, step, parameter, values](benchmark::State& state) {
+        json parameters = found.step(step)->parameters;
+        std::size_t k = 0;
+        for (auto _ : state) {
+          parameters[parameter] = values[k++ % values.size()];
+          benchmark::DoNotOptimize(arris::testing::applied(found, {std::string(step), parameters}));
+        }
+      },
+      static_cast<int>(values.size())};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: arris_find_bench SCAN\n";
+  if (argc < 2 || argv[1][0] == '-') {
+    std::cerr << "usage: arris_find_bench SCAN [options of Google Benchmark]\n";
     return 2;
   }
-  Document opened, walked, jumped;
-  seconds_of({}, {"open", {{"file", argv[1]}}}, opened);
-  const double walk = seconds_of(opened, {"find_sharp_lines", {{"method", "walk"}}}, walked);
-  const double jump = seconds_of(opened, {"find_sharp_lines"}, jumped);
-  const std::vector<nlohmann::json> angles{12.0, 16.0, 20.0, 24.0, 28.0, 33.0, 40.0, 50.0};
-  std::cout << opened.mesh->face_count() << " faces; lines by the walk "
-            << walked.lines.lines.size() << ", by the normal jump " << jumped.lines.lines.size()
-            << "\n";
-  print_row("lines, once", "walk", walk, "normal jump", jump);
-  print_row("a move of the threshold (median of 8)", "walk",
-            slider_seconds(walked, "find_sharp_lines", "angle", angles), "normal jump",
-            slider_seconds(jumped, "find_sharp_lines", "angle", angles));
+  const Document opened = arris::testing::applied({}, {"open", {{"file", argv[1]}}});
+  const Operation walk{"find_sharp_lines", {{"method", "walk"}}}, jump{"find_sharp_lines"};
+  const Document walked = arris::testing::applied(opened, walk),
+                 jumped = arris::testing::applied(opened, jump);
+  const std::vector<json> angles{12.0, 16.0, 20.0, 24.0, 28.0, 33.0, 40.0, 50.0};
+  std::cout << opened.mesh->face_count() << " faces\n";
+  bench::beside("lines, once", once("walk", opened, walk), once("normal jump", opened, jump));
+  bench::beside("a move of the threshold",
+                moves("walk", walked, "find_sharp_lines", "angle", angles),
+                moves("normal jump", jumped, "find_sharp_lines", "angle", angles));
 
-  Document fronts, surfaces;
-  const double by_fronts = seconds_of(jumped, {"find_partitions", {{"method", "fronts"}}}, fronts);
-  const double by_surfaces = seconds_of(jumped, {"find_partitions"}, surfaces);
-  std::cout << "partitions by fronts " << fronts.partitions.partitions.size() << ", by surfaces "
-            << surfaces.partitions.partitions.size() << "\n";
-  print_row("partitions, once", "fronts", by_fronts, "surfaces", by_surfaces);
-  std::vector<nlohmann::json> bounds;
-  const double bound =
-      fronts.step("find_partitions")->parameters["intervals"][0][1].is_number()
-          ? fronts.step("find_partitions")->parameters["intervals"][0][1].get<double>()
-          : 1.0;
+  const Operation front{"find_partitions", {{"method", "fronts"}}}, surface{"find_partitions"};
+  const Document fronts = arris::testing::applied(jumped, front),
+                 surfaces = arris::testing::applied(jumped, surface);
+  bench::beside("partitions, once", once("fronts", jumped, front),
+                once("surfaces", jumped, surface));
+  const json& interval = fronts.step("find_partitions")->parameters["intervals"][0][1];
+  const double bound = interval.is_number() ? interval.get<double>() : 1.0;
+  std::vector<json> bounds;
   for (const double share : {0.5, 0.7, 0.8, 0.9, 1.1, 1.3, 1.6, 2.0})
     bounds.push_back({{0.0, share * bound}, {share * bound, nullptr}});
-  print_row("a move of Kmax or of the detail (median of 8)", "fronts",
-            slider_seconds(fronts, "find_partitions", "intervals", bounds), "surfaces",
-            slider_seconds(surfaces, "find_partitions", "detail",
-                           {0.2, 0.4, 0.6, 0.8, 1.2, 1.6, 2.5, 4.0}));
-  return 0;
+  bench::beside("a move of Kmax or of the detail",
+                moves("fronts", fronts, "find_partitions", "intervals", bounds),
+                moves("surfaces", surfaces, "find_partitions", "detail",
+                      {0.2, 0.4, 0.6, 0.8, 1.2, 1.6, 2.5, 4.0}));
+  argv[1] = argv[0];
+  return bench::run_beside(argc - 1, argv + 1);
 }

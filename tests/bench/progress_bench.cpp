@@ -8,8 +8,6 @@
 // without a report and where it lies, the peak memory of the process so far, and the longest time
 // that CANCELS (8) requests to stop, spread over the work, took to be heard.
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -23,6 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/base/process.h"
 #include "core/document/document.h"
 #include "core/document/operation.h"
 #include "core/mesh/write_ply.h"
@@ -37,12 +36,6 @@ using namespace testing;
 using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration spent) { return std::chrono::duration<double>(spent).count(); }
-
-double peak_gigabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1e6;
-}
 
 struct Spell {
   double seconds = 0.0, from = 0.0, to = 0.0;
@@ -91,7 +84,7 @@ Document measured(const Document& document, const Operation& operation, int canc
   Document result = value_of(apply(document, operation, context));
   listener.end();
   const double whole = seconds(Clock::now() - begin);
-  const double peak = peak_gigabytes();
+  const double peak = 1e-9 * static_cast<double>(peak_memory());
   double slowest = 0.0, slowest_at = 0.0;
   for (int k = 0; k < cancels; ++k) {
     const double at = (k + 0.5) / cancels;

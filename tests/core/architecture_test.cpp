@@ -60,6 +60,18 @@ TEST(Architecture, CoreKnowsNothingAboveIt) {
   expect_none(includes_below("core"), std::regex("^(\\.\\./)*(ui|app|tests)/"));
 }
 
+// What an operating system is asked has its place in core/base, so that another one is told there.
+TEST(Architecture, OnlyBaseAsksTheOperatingSystem) {
+  static const std::regex system(
+      R"(^(sys/.*|arpa/.*|netinet/.*|(unistd|fcntl|dlfcn|dirent|pthread|poll|pwd|sched|termios|io|)"
+      R"(direct|process|[Ww]indows)\.h)$)");
+  for (const char* folder : {"core", "ui", "app"})
+    for (const Include& include : includes_below(folder))
+      EXPECT_TRUE(include.file.parent_path().filename() == "base" ||
+                  !std::regex_match(include.header, system))
+          << include.file.string() << ":" << include.line << " includes " << include.header;
+}
+
 /// Whether `order` holds all folders below `top`, and none of them includes a later one.
 void expect_order(const std::string& top, const std::vector<std::string>& order) {
   const auto place_of = [&](const std::string& folder) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/base/random.h"
@@ -12,6 +13,7 @@
 #include "core/document/journal.h"
 #include "tests/core/treatments_fixture.h"
 #include "tests/support/documents.h"
+#include "tests/support/shrinking.h"
 
 namespace arris {
 namespace {
@@ -40,10 +42,10 @@ class RandomEdits {
       }
       return json{{"vertices", stroke}, {"radius", edge * random_.uniform(1.0, 6.0)}};
     };
-    const double highest =
-        document.step("find_partitions") ? random_.uniform(0.0, 2.0) * middle_value(document) : 1.0;
     const bool has_lines = !document.lines.lines.empty();
     const bool has_partitions = !document.partitions.partitions.empty();
+    const double highest =
+        has_partitions ? random_.uniform(0.0, 2.0) * middle_value(document) : 1.0;
     for (;;) {
       const std::uint64_t kind = random_.bits() % 30;
       if (kind < 8 && kind != 4 && kind != 5 && !has_lines) continue;
@@ -94,6 +96,7 @@ class RandomEdits {
           return {"find_partitions", json::object()};
         case 10:
         case 11: {
+          if (document.boundaries->empty()) continue;
           const Boundary& b = *pick(*document.boundaries);
           return {"connect_partitions",
                   {{"partitions", {b.left, b.right}},
@@ -191,33 +194,35 @@ void expect_replays(const History& history, const std::string& file) {
   ASSERT_TRUE(replayed->warnings.empty());
 }
 
-/// `count` random edits with undo and redo in between. After each: the invariants hold, a second
-/// document fed the same operation through JSON is equal; at one random point and at the end a full
-/// replay is.
-void run_random_edits(const std::string& file, int count, std::uint64_t seed) {
-  RandomEdits edits(seed);
+struct Tally {
+  int performed = 0, refused = 0;
+};
+
+/// Random edits with undo and redo in between, one by each choice. After each: the invariants hold,
+/// a second document fed the same operation through JSON is equal; at one random point and at the
+/// end a full replay is.
+void run_edits(const std::string& file, const testing::Choices& choices, Tally& tally) {
   History history;
   if (const auto done = history.run({"open", {{"file", file}}}); !done)
     FAIL() << done.error().message;
   ASSERT_TRUE(history.run({"find_sharp_lines", {{"angle", 30.0}}}).has_value());
   ASSERT_TRUE(history.run({"find_partitions", json::object()}).has_value());
-  int performed = 0, refused = 0;
-  const auto replayed_at =
-      static_cast<int>(Random(seed).bits() % static_cast<std::uint64_t>(count));
-  for (int k = 0; k < count; ++k) {
+  std::string told;  // the session so far, for whoever has to find the fault
+  const std::size_t replayed_at = choices.empty() ? 0 : choices.front() % choices.size();
+  for (std::size_t k = 0; k < choices.size(); ++k) {
     if (k == replayed_at) {
-      expect_replays(history, file);
-      if (::testing::Test::HasFatalFailure()) return;
+      ASSERT_NO_FATAL_FAILURE(expect_replays(history, file)) << told;
     }
-    const Operation operation = edits.next(history.current());
+    const Operation operation = RandomEdits(choices[k]).next(history.current());
+    told += operation.text() + "\n";
     if (operation.name == "undo" || operation.name == "redo") {
       if (operation.name == "undo" && history.head() > 3) {
         const std::uint32_t parent = history.entries()[history.head() - 1].parent;
-        ASSERT_TRUE(history.undo().has_value());
-        ASSERT_EQ(hash_of(history.current()), history.entries()[parent - 1].hash);
+        ASSERT_TRUE(history.undo().has_value()) << told;
+        ASSERT_EQ(hash_of(history.current()), history.entries()[parent - 1].hash) << told;
       } else if (operation.name == "redo" && history.can_redo()) {
-        ASSERT_TRUE(history.redo().has_value());
-        ASSERT_EQ(hash_of(history.current()), history.entries()[history.head() - 1].hash);
+        ASSERT_TRUE(history.redo().has_value()) << told;
+        ASSERT_EQ(hash_of(history.current()), history.entries()[history.head() - 1].hash) << told;
       }
       continue;
     }
@@ -225,26 +230,32 @@ void run_random_edits(const std::string& file, int count, std::uint64_t seed) {
     const std::string hash = hash_of(before);
     const auto done = history.run(operation);
     if (!done) {
-      ++refused;
-      ASSERT_FALSE(done.error().message.empty());
-      ASSERT_EQ(hash_of(history.current()), hash) << operation.text();
+      ++tally.refused;
+      ASSERT_FALSE(done.error().message.empty()) << told;
+      ASSERT_EQ(hash_of(history.current()), hash) << told;
       continue;
     }
-    ++performed;
+    ++tally.performed;
     // The same through JSON, on the document before.
     const auto parsed = Operation::parse(history.entries().back().operation.text());
-    ASSERT_TRUE(parsed.has_value());
+    ASSERT_TRUE(parsed.has_value()) << told;
     const Result<Document> second = apply(before, *parsed);
-    ASSERT_TRUE(second.has_value()) << second.error().message << " " << operation.text();
-    ASSERT_EQ(hash_of(*second), history.entries().back().hash) << operation.text();
-    expect_invariants(history.current());
-    if (::testing::Test::HasFatalFailure()) {
-      ADD_FAILURE() << "edit " << k << ": " << operation.text();
-      return;
-    }
+    ASSERT_TRUE(second.has_value()) << second.error().message << "\n" << told;
+    ASSERT_EQ(hash_of(*second), history.entries().back().hash) << told;
+    ASSERT_NO_FATAL_FAILURE(expect_invariants(history.current())) << told;
   }
-  expect_replays(history, file);
-  EXPECT_GT(performed, refused);
+  ASSERT_NO_FATAL_FAILURE(expect_replays(history, file)) << told;
+}
+
+/// The same; where it fails, with the few edits that cause it.
+void run_random_edits(const std::string& file, std::size_t count, std::uint64_t seed) {
+  std::optional<Tally> first;
+  testing::expect_holds(testing::choices_of(count, seed), [&](const testing::Choices& choices) {
+    Tally tally;
+    run_edits(file, choices, tally);
+    if (!first) first = tally;
+  });
+  EXPECT_GT(first->performed, first->refused);
 }
 
 TEST(RandomTreatments, KeepTheInvariantsOnTheSampleMould) {
@@ -283,6 +294,43 @@ TEST_P(RandomTreatmentsOnARealMesh, KeepTheInvariants) {
 
 INSTANTIATE_TEST_SUITE_P(Sessions, RandomTreatmentsOnARealMesh, ::testing::Range(100, 120),
                          name_of_seed);
+
+/// Fails once a session has deleted lines in two operations.
+TEST(Shrinking, OfASessionThatFailsLeavesTheEditsThatCauseIt) {
+  const testing::TempFolder folder;
+  const std::string file = testing::write_mesh(folder, "mould.ply", testing::sample_mould(8.0));
+  const auto fault = testing::shrink(testing::choices_of(60, 1), [&](const auto& choices) {
+    History history;
+    ASSERT_TRUE(history.run({"open", {{"file", file}}}).has_value());
+    ASSERT_TRUE(history.run({"find_sharp_lines", {{"angle", 30.0}}}).has_value());
+    int deleted = 0;
+    for (const std::uint64_t choice : choices) {
+      const Operation operation = RandomEdits(choice).next(history.current());
+      if (operation.name != "undo" && operation.name != "redo" && history.run(operation))
+        deleted += operation.name == "delete_lines";
+      ASSERT_LT(deleted, 2) << operation.name;
+    }
+  });
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_EQ(fault->choices.size(), 2u);
+  EXPECT_NE(fault->fault.find("delete_lines"), std::string::npos) << fault->fault;
+}
+
+TEST(Shrinking, OfWhatHoldsFindsNothingAndRunsItOnce) {
+  int runs = 0;
+  EXPECT_FALSE(testing::shrink(testing::choices_of(60, 1), [&](const auto&) { ++runs; }));
+  EXPECT_EQ(runs, 1);
+}
+
+TEST(Shrinking, EndsInTimeWithTheLeastSoFar) {
+  int runs = 0;
+  const auto fault = testing::shrink(
+      testing::choices_of(60, 1), [&](const auto&) { FAIL() << "run " << ++runs; },
+      std::chrono::seconds(0));
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_EQ(fault->choices.size(), 60u);
+  EXPECT_NE(fault->fault.find("run 1"), std::string::npos);
+}
 
 TEST(ThousandEdits, OfAMillionFacesCostLessThan200Megabytes) {
   const testing::TempFolder folder;

@@ -1,9 +1,8 @@
 #include "ui/view/graphics.h"
 
-#include <dlfcn.h>
-
 #include <vtkVersion.h>
 #include <QGuiApplication>
+#include <QLibrary>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
@@ -57,14 +56,13 @@ QString fault_of(QOpenGLContext& context, bool& by_processor) {
 QString why_no_display() {
 #ifdef Q_OS_LINUX
   if (qEnvironmentVariable("QT_QPA_PLATFORM", "xcb") != "xcb") return {};
-  void* const library = ::dlopen("libxcb.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (!library) return {};  // Qt will say what it misses
+  QLibrary library("xcb", 1);  // where it is not here, Qt will say what it misses
   using Connect = void*(const char*, int*);
   using HasError = int(void*);
   using Disconnect = void(void*);
-  auto* const connect = reinterpret_cast<Connect*>(::dlsym(library, "xcb_connect"));
-  auto* const has_error = reinterpret_cast<HasError*>(::dlsym(library, "xcb_connection_has_error"));
-  auto* const disconnect = reinterpret_cast<Disconnect*>(::dlsym(library, "xcb_disconnect"));
+  auto* const connect = reinterpret_cast<Connect*>(library.resolve("xcb_connect"));
+  auto* const has_error = reinterpret_cast<HasError*>(library.resolve("xcb_connection_has_error"));
+  auto* const disconnect = reinterpret_cast<Disconnect*>(library.resolve("xcb_disconnect"));
   if (!connect || !has_error || !disconnect) return {};
   void* const connection = connect(nullptr, nullptr);
   // A good one is never closed: a server like Xvfb begins anew when its last client goes, and would
