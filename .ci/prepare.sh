@@ -8,7 +8,7 @@ build=$root/build
 
 packages=(
   build-essential cmake ninja-build ccache
-  qt6-base-dev libqt6opengl6-dev libqt6svg6 libvtk9-dev
+  qt6-base-dev libqt6opengl6-dev libqt6svg6 libvtk9-dev libspnav-dev
   libopenmesh-dev libeigen3-dev libtbb-dev libxxhash-dev
   nlohmann-json3-dev libcli11-dev libexpected-dev libgtest-dev librapidcheck-dev libbenchmark-dev
   pkg-config zlib1g-dev libexpat1-dev libzip-dev libsqlite3-dev

@@ -258,13 +258,16 @@ LengthUnit length_unit_of(const Document& document) {
 
 double assigned_share(const Document& document) {
   if (document.partitions.labels.empty()) return 0.0;
-  double all = 0.0, assigned = 0.0;
-  for (FaceId f = 0; f < document.mesh->face_count(); ++f) {
-    const double area = face_area(*document.mesh, f);
-    all += area;
-    if (document.partitions.labels[f] != 0) assigned += area;
+  const double all = document.mesh->area();
+  if (!(all > 0.0) || !std::isfinite(all)) return 0.0;  // too large to be added
+  double assigned = 0.0;
+  std::size_t faces = 0;
+  for (const PartitionPtr& p : document.partitions.partitions) {
+    assigned += p->area;
+    faces += p->faces;
   }
-  return all > 0.0 && std::isfinite(all) ? assigned / all : 0.0;  // too large to be added: 0
+  // The areas are added in another order than the whole.
+  return faces == document.mesh->face_count() ? 1.0 : std::min(assigned / all, 1.0);
 }
 
 }  // namespace arris

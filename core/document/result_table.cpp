@@ -65,8 +65,7 @@ Result<ResultTable> partition_table(const Document& document, const Context& con
   const auto surfaces = fit_partition_surfaces(mesh, document.lines, partitions, context);
   if (!surfaces) return tl::unexpected<Error>(surfaces.error());
   const std::vector<Outline> outlines = outlines_of(mesh, document.lines, partitions);
-  double whole = 0.0;
-  for (FaceId f = 0; f < mesh.face_count(); ++f) whole += face_area(mesh, f);
+  const double whole = mesh.area();
   ResultTable table{length_unit_of(document), {}, {}};
   for (const char* key : {"partition", "faces", "area", "area_share", "sides", "holes", "surface",
                           "radius", "tube_radius", "half_angle_degrees", "mean_deviation",

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/hash.h"
+#include "core/mesh/geometry.h"
 
 namespace arris {
 
@@ -170,6 +171,7 @@ void Mesh::Build::measure() {
   double length = 0.0;
   for (EdgeId e = 0; e < mesh.edges_.size(); ++e) length += mesh.edge_length(e);
   if (!mesh.edges_.empty()) mesh.mean_edge_length_ = length / mesh.edges_.size();
+  for (FaceId f = 0; f < mesh.face_count(); ++f) mesh.area_ += face_area(mesh, f);
   bool first = true;
   for (VertexId v = 0; v < vertex_count; ++v) {
     if (mesh.is_isolated(v)) continue;

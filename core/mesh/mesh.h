@@ -129,6 +129,7 @@ class Mesh {
 
   double edge_length(EdgeId e) const { return (point(edges_[e][1]) - point(edges_[e][0])).norm(); }
   double mean_edge_length() const { return mean_edge_length_; }
+  double area() const { return area_; }  ///< Of all faces.
   /// Corners of the bounding box of the vertices that belong to a face.
   const Point& box_min() const { return box_min_; }
   const Point& box_max() const { return box_max_; }
@@ -150,7 +151,7 @@ class Mesh {
   std::vector<EdgeVertices> edges_;
   HalfEdgeMesh half_edges_;
   std::size_t border_edge_count_ = 0;
-  double mean_edge_length_ = 0.0;
+  double mean_edge_length_ = 0.0, area_ = 0.0;
   Point box_min_ = Point::Zero();
   Point box_max_ = Point::Zero();
   std::string hash_;

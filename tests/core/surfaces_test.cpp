@@ -205,7 +205,7 @@ TEST(SurfaceFit, ASurfacePlacedElsewhereIsTheSameSurface) {
   torus.radius = 9.0;
   torus.tube = 3.1;
   Surface free;
-  free.heights << 0.3, 0.02, -0.03, 0.01, 0.004, -0.006;
+  free.heights.head<6>() << 0.3, 0.02, -0.03, 0.01, 0.004, -0.006;
   Random random(8);
   for (const Surface& surface : {cylinder, torus, free, continued(cylinder, 1.0, torus, 2.0)})
     for (int k = 0; k < 20; ++k) {

@@ -63,6 +63,9 @@ inline Triangles sample_mould(double edge_length) {
   return {std::move(mould.points), std::move(mould.triangles)};
 }
 
+/// The same with about so many faces; above a million in steps of four.
+Triangles mould_of(double faces);
+
 /// A flat square lattice from (0, 0) to (size, size) whose vertices are moved by `place(x, y)`.
 inline Triangles shaped_lattice(double size, double h,
                                 const std::function<Point(double, double)>& place) {

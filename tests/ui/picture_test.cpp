@@ -8,6 +8,7 @@
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QSpinBox>
 #include <QTemporaryDir>
@@ -111,7 +112,12 @@ TEST_F(SavePicture, OnPaperIsToScaleAndSaysItsResolution) {
       dialog.findChild<QDoubleSpinBox*>("picture_width")->setValue(160.0);
       dialog.findChild<QDoubleSpinBox*>("picture_height")->setValue(150.0);
       EXPECT_TRUE(dialog.findChild<QComboBox*>("picture_scale")->isEnabled());
+      const auto* pixels = dialog.findChild<QLabel*>("picture_pixels");
+      choose(dialog, "picture_scale", "2:1");
+      EXPECT_TRUE(pixels->text().contains(QString::number(std::ceil(2.0 * part)) + " ×"))
+          << pixels->text().toStdString();
       choose(dialog, "picture_scale", scale);
+      EXPECT_FALSE(pixels->text().contains("does not fit")) << pixels->text().toStdString();
       without_extras(dialog);
     });
     ASSERT_FALSE(image.isNull());

@@ -1,6 +1,7 @@
 // What the view draws: fields, labels, lines, and that it fits its window.
 
 #include <QMainWindow>
+#include <QOpenGLDebugLogger>
 #include <QProcess>
 
 #include "tests/ui/view_fixture.h"
@@ -359,6 +360,96 @@ TEST_F(MeshViewTest, ChangedLinesLeaveTheSurfaceAsItIs) {
   EXPECT_NE(grab(), before);
   view_.set_lines({});
   EXPECT_EQ(grab(), before);
+}
+
+TEST_F(MeshViewTest, LinesThatWereThereBeforeLookAsIfTheyWereNew) {
+  const MeshPtr mesh = plane(10.0, 1.0);
+  const auto line = [&](std::uint32_t id, double y, LineType type) {
+    ViewLine made;
+    made.id = id;
+    made.type = type;
+    made.vertices = row(*mesh, mesh->box_min().y() + y);
+    return made;
+  };
+  view_.set_legend_visible(false);  // beside which the part would be fitted
+  view_.set_mesh(mesh, true);
+  view_.set_lines({line(1, 2.0, LineType::c0_convex), line(2, 5.0, LineType::c0_concave),
+                   line(3, 8.0, LineType::gn)});
+  grab();
+  // One is gone, one is of another type and one is new; the order is another.
+  const std::vector<ViewLine> lines{line(2, 5.0, LineType::border), line(4, 7.0, LineType::gn),
+                                    line(3, 8.0, LineType::gn)};
+  view_.set_lines(lines);
+  const QImage again = grab();
+  view_.set_mesh(mesh, true);
+  view_.set_lines(lines);
+  EXPECT_EQ(grab(), again);
+}
+
+TEST_F(MeshViewTest, LabelsAsTheyWereLeaveTheSurfaceAsItIs) {
+  const MeshPtr mesh = plane(10.0, 2.0);
+  view_.set_mesh(mesh, true);
+  const std::vector<QColor> colours{QColor(), QColor(200, 60, 60)};
+  const std::vector<std::uint32_t> labels(mesh->face_count(), 1);
+  view_.set_face_labels(labels, colours);
+  const QImage red = grab();
+  view_.set_face_labels(labels, colours);
+  EXPECT_EQ(grab(), red);
+  // One of the two alone is a change.
+  view_.set_face_labels(labels, {QColor(), QColor(60, 60, 200)});
+  const QImage blue = grab();
+  EXPECT_GT(unlike(blue, red, 40), 0.1);
+  view_.set_face_labels({}, {});
+  EXPECT_GT(unlike(grab(), blue, 40), 0.1);
+}
+
+/// A view whose OpenGL tells of each fault, also those that VTK asks for and passes over.
+TEST(MeshViewDebugTest, NothingThatIsDrawnIsAFaultToOpenGl) {
+  MeshView view;
+  QSurfaceFormat debugged = view.format();
+  debugged.setOption(QSurfaceFormat::DebugContext);
+  view.setFormat(debugged);
+  view.resize(500, 400);
+  view.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
+  QOpenGLDebugLogger logger;
+  QStringList faults;
+  QObject::connect(&logger, &QOpenGLDebugLogger::messageLogged,
+                   [&](const QOpenGLDebugMessage& message) {
+                     if (message.type() == QOpenGLDebugMessage::ErrorType)
+                       faults << message.message();
+                   });
+  view.makeCurrent();
+  if (!logger.initialize()) GTEST_SKIP() << "this OpenGL does not tell";
+  logger.startLogging(QOpenGLDebugLogger::SynchronousLogging);
+  view.doneCurrent();
+
+  const MeshPtr mesh = mesh_of(testing::torus(10.0, 3.0, 60, 30));
+  view.set_mesh(mesh, true);
+  ViewField field = field_of(*mesh, [](const Point& p) { return p.x(); });
+  view.set_field(field);
+  view.grabFramebuffer();
+  view.set_edges_visible(true);
+  view.grabFramebuffer();
+  field.element = Element::edge;
+  field.values = std::make_shared<std::vector<double>>(mesh->edge_count(), 1.0);
+  view.set_field(field);
+  view.grabFramebuffer();
+  view.set_face_labels(std::vector<std::uint32_t>(mesh->face_count(), 1), {QColor(), Qt::red});
+  ViewLine line;
+  line.id = 1;
+  line.vertices = {mesh->triangle(0)[0], mesh->triangle(0)[1], mesh->triangle(0)[2]};
+  view.set_lines({line});
+  view.set_selected_lines({1});
+  view.set_ghost_paths({line.vertices});
+  view.set_section(Section{Point::UnitX(), 0.0});
+  view.grabFramebuffer();
+  PictureOptions options;
+  options.size = {700, 300};
+  EXPECT_FALSE(view.picture(options).isNull());
+  view.makeCurrent();
+  logger.stopLogging();
+  EXPECT_TRUE(faults.isEmpty()) << faults.join('\n').toStdString();
 }
 
 TEST_F(MeshViewTest, SurvivesMovingToAnotherWindow) {

@@ -3,7 +3,7 @@
 #include "tests/ui/view_fixture.h"
 #include "ui/view/coarse_mesh.h"
 #include "ui/view/colour_scale.h"
-#include "ui/view/overlay.h"
+#include "ui/view/overlay_layers.h"
 
 namespace arris::ui {
 namespace {
@@ -135,6 +135,55 @@ TEST(OverlayTest, TicksLieOnTheScale) {
         EXPECT_LE(scale.position(tick), 1.0 + 1e-9);
       }
     }
+  }
+}
+
+/// Layers one over the other, as the graphics card lays them.
+QImage laid(const std::vector<GlCanvas::Layer>& layers, QSize pixels) {
+  QImage image(pixels, QImage::Format_RGBA8888_Premultiplied);
+  image.fill(Qt::transparent);
+  QPainter painter(&image);
+  for (const GlCanvas::Layer& layer : layers)
+    if (!layer.image.isNull()) painter.drawImage(layer.at, layer.image);
+  return image;
+}
+
+TEST(OverlayLayersTest, AreTheOverlayAndArePaintedOnlyWhereItChanged) {
+  for (const double scale : {1.0, 1.5, 2.0}) {
+    const QSize pixels(900, 600);
+    Overlay overlay;
+    overlay.field = ViewField();
+    overlay.field->title = "Kabs";
+    overlay.line_types = {LineType::c0_convex, LineType::gn};
+    overlay.hint = "a hint";
+    overlay.units_per_pixel = 0.1;
+    OverlayLayers layers;
+    const auto changes = [&] {
+      const int before = layers.painted();
+      const QImage image = laid(layers.layers_of(overlay, pixels, scale), pixels);
+      QImage whole(pixels, QImage::Format_RGBA8888_Premultiplied);
+      whole.fill(Qt::transparent);
+      QPainter painter(&whole);
+      painter.scale(scale, scale);
+      paint_overlay(painter, QSizeF(pixels) / scale, overlay);
+      painter.end();
+      EXPECT_EQ(image, whole) << scale;
+      return layers.painted() - before;
+    };
+    EXPECT_EQ(changes(), 4);
+    EXPECT_EQ(changes(), 0);
+    overlay.axes = Eigen::AngleAxisd(0.7, Point(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+    EXPECT_EQ(changes(), 1) << "turned";
+    overlay.units_per_pixel = 0.07;
+    EXPECT_EQ(changes(), 1) << "zoomed";
+    overlay.hint = "another";
+    EXPECT_EQ(changes(), 1);
+    overlay.line_types.insert(LineType::border);  // the marker may have to give way
+    EXPECT_GE(changes(), 1);
+    overlay.dark = true;
+    EXPECT_EQ(changes(), 4);
+    overlay.scale_bar = overlay.orientation_marker = false;
+    EXPECT_GE(changes(), 2);
   }
 }
 

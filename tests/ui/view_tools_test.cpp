@@ -377,6 +377,94 @@ TEST_F(ViewToolsTest, EveryToolLeavesTheMiddleAndRightButtonToTheCamera) {
   EXPECT_LT((view_.pick(middle() + QPoint(0, 30))->point - there).norm(), 1e-6) << "Ctrl pans";
 }
 
+/// What a drag did with the camera.
+std::optional<Motion> motion_between(const ViewCamera& before, const ViewCamera& after) {
+  if ((before.towards_viewer() - after.towards_viewer()).norm() > 0.02) return Motion::orbit;
+  if (std::abs(before.height() / after.height() - 1.0) > 0.02) return Motion::zoom;
+  if ((before.focus() - after.focus()).norm() > 1e-3 * before.height()) return Motion::pan;
+  return std::nullopt;
+}
+
+TEST_F(ViewToolsTest, EachStyleOfNavigationMovesTheCameraAsItsTableSays) {
+  show_plane();
+  for (const NavigationInfo& info : navigation_table()) {
+    view_.set_navigation(info.style);
+    EXPECT_EQ(view_.navigation(), info.style);
+    EXPECT_EQ(navigation_style(info.key), info.style);
+    for (const Motion motion : {Motion::orbit, Motion::pan, Motion::zoom})
+      EXPECT_FALSE(how_to(info, motion).isEmpty()) << info.name;
+    for (const NavigationRule& rule : info.rules) {
+      view_.look_from(MeshView::StandardView::top);
+      const ViewCamera before = view_.camera();
+      // The first button is the middle one where that is held at all.
+      std::vector<Qt::MouseButton> order;
+      for (const Qt::MouseButton button : {Qt::MiddleButton, Qt::LeftButton, Qt::RightButton})
+        if (rule.buttons.testFlag(button)) order.push_back(button);
+      const auto event = [&](QEvent::Type type, const QPoint& at, Qt::MouseButton button,
+                             Qt::MouseButtons held) {
+        QMouseEvent e(type, at, view_.mapToGlobal(at), button, held, rule.modifiers);
+        QApplication::sendEvent(&view_, &e);
+      };
+      Qt::MouseButtons held;
+      if (rule.after_second) {
+        event(QEvent::MouseButtonPress, middle(), Qt::MiddleButton, Qt::MiddleButton);
+        event(QEvent::MouseButtonPress, middle(), Qt::LeftButton,
+              Qt::MiddleButton | Qt::LeftButton);
+        event(QEvent::MouseButtonRelease, middle(), Qt::LeftButton, Qt::MiddleButton);
+        held = Qt::MiddleButton;
+      } else {
+        for (const Qt::MouseButton button : order)
+          event(QEvent::MouseButtonPress, middle(), button, held |= button);
+      }
+      for (int k = 1; k <= 8; ++k)
+        event(QEvent::MouseMove, middle() + QPoint(5 * k, 6 * k), Qt::NoButton, held);
+      for (auto button = order.rbegin(); button != order.rend(); ++button)
+        event(QEvent::MouseButtonRelease, middle() + QPoint(40, 48), *button, held &= ~*button);
+      const auto done = motion_between(before, view_.camera());
+      ASSERT_TRUE(done.has_value()) << info.name << " " << int(rule.buttons);
+      EXPECT_EQ(*done, rule.motion) << info.name << " " << int(rule.buttons);
+    }
+  }
+}
+
+TEST_F(ViewToolsTest, WhereTheLeftButtonMovesNothingItDrawsARectangleAndClicks) {
+  show_plane();
+  view_.set_lines({line(7, 5.0)});
+  QSignalSpy banded(&view_, &MeshView::banded), clicked(&view_, &MeshView::clicked);
+  for (const NavigationInfo& info : navigation_table()) {
+    if (info.left_moves()) continue;
+    view_.set_navigation(info.style);
+    view_.look_from(MeshView::StandardView::top);
+    const ViewCamera before = view_.camera();
+    banded.clear();
+    clicked.clear();
+    drag(place(0.2, 3.0), place(9.8, 7.0));
+    ASSERT_EQ(banded.count(), 1) << info.name;
+    EXPECT_EQ(banded[0][0].value<std::vector<std::uint32_t>>(), Ids{7});
+    EXPECT_TRUE(view_.camera() == before) << info.name;
+    QTest::mouseClick(&view_, Qt::LeftButton, {}, middle());
+    EXPECT_EQ(clicked.count(), 1) << info.name;
+    // Tools that only click do not move anything by a drag either.
+    view_.set_tool(Tool::measure);
+    drag(middle(), middle() + QPoint(60, 20));
+    EXPECT_TRUE(view_.camera() == before) << info.name;
+    view_.set_tool(Tool::select);
+  }
+}
+
+TEST_F(ViewToolsTest, TheWheelGoesTheWayOfTheStyle) {
+  show_plane();
+  for (const NavigationInfo& info : navigation_table()) {
+    view_.set_navigation(info.style);
+    view_.fit();
+    const double before = view_.camera().height();
+    QWheelEvent up(middle(), view_.mapToGlobal(middle()), {}, QPoint(0, 120), Qt::NoButton, {},
+                   Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view_, &up);
+    EXPECT_EQ(view_.camera().height() > before, info.wheel_up_is_away) << info.name;
+  }
+}
+
 TEST_F(ViewToolsTest, ASectionCutsAwayWhatIsSeenAndPicked) {
   mesh_ = mesh_of(testing::divided_cube(10.0, 10));
   view_.set_mesh(mesh_, false);

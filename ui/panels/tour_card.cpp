@@ -23,7 +23,7 @@ namespace arris::ui {
 namespace {
 
 // All in pixels.
-constexpr int body_width = 330;
+constexpr std::array body_widths{330, 290, 258, 226};  // the first that finds a place
 constexpr int pointer = 13;       // how far it stands out; the margin on all sides
 constexpr int pointer_half = 11;  // half of its width where it leaves the card
 constexpr int radius = 9;
@@ -293,6 +293,7 @@ class TourButton : public QPushButton {
 
 TourCard::TourCard(QWidget* window)
     : QWidget(window),
+      body_width_(body_widths.front()),
       ring_(new TourRing(window)),
       dots_(new TourDots(this)),
       task_(new TourTask(this)),
@@ -381,15 +382,19 @@ void TourCard::set_page(const TourPage& page) {
 }
 
 void TourCard::fit_to_text() {
-  const int width = body_width + 2 * pointer;
+  const int width = body_width_ + 2 * pointer;
   layout()->activate();
   resize(width, layout()->totalHeightForWidth(width));
 }
 
 bool TourCard::lie_beside(const QRect& target, const QRect& room, const std::vector<QRect>& clear) {
-  fit_to_text();
-  const std::optional<Berth> berth =
-      berth_beside(size() - QSize(2 * pointer, 2 * pointer), target, room, clear);
+  std::optional<Berth> berth;
+  for (const int width : body_widths) {
+    body_width_ = width;
+    fit_to_text();
+    berth = berth_beside(size() - QSize(2 * pointer, 2 * pointer), target, room, clear);
+    if (berth) break;
+  }
   if (!berth) return false;
   ring_->lie_round(target);
   lie_at(berth->body.topLeft(), berth->tip);

@@ -73,6 +73,7 @@ class TourCard : public QWidget {
   QPainterPath outline() const;
 
   TourPage page_;
+  int body_width_;
   QPoint tip_;
   TourRing* ring_;
   TourDots* dots_;

@@ -50,7 +50,7 @@ class GlCanvas {
   void draw(const Frame& frame);
   /// The same for a picture that is drawn but once: keeps nothing.
   void draw_once(const Frame& frame);
-  /// Milliseconds that the last frame with the whole surface took.
+  /// Milliseconds that it took to draw the whole surface; 0: not known yet.
   double surface_time() const { return surface_time_; }
 
   /// A picture to lay over the part, premultiplied; `at`: of its top left corner, device pixels.

@@ -222,6 +222,8 @@ MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), impl_(std::make_uni
   QSurfaceFormat wanted;
   wanted.setVersion(3, 2);
   wanted.setProfile(QSurfaceFormat::CoreProfile);
+  // A core profile without what is deprecated refuses lines wider than a pixel, those of the net.
+  wanted.setOption(QSurfaceFormat::DeprecatedFunctions);
   wanted.setDepthBufferSize(24);
   wanted.setSamples(0);  // VTK samples by itself
   setFormat(wanted);
@@ -361,7 +363,8 @@ void MeshView::set_field(std::optional<ViewField> field) {
 }
 
 void MeshView::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours) {
-  impl_->scene.set_face_labels(std::move(labels), std::move(colours));
+  if (impl_->scene.set_face_labels(std::move(labels), std::move(colours)))
+    moved();  // a slow surface follows a dragged threshold as its stand-in
   keep_clear();
   update();
 }
@@ -444,6 +447,7 @@ void MeshView::look_like(const MeshView& other) {
   set_dark(look.dark);
   set_fields_lit(look.fields_lit);
   set_flat_shading(look.flat);
+  if (look.navigation != navigation()) set_navigation(look.navigation);
   impl_->told = impl_->look();
   if (follows && other.impl_->moving) moved();
 }
@@ -559,18 +563,16 @@ void MeshView::paintGL() {
   Overlay overlay = impl_->overlay(impl_->camera, impl_->camera.units_per_pixel(size));
   overlay.hint = impl_->hint_shown();
   const ToolOverlay tools = impl_->tools(impl_->camera, size);
-  const bool resized = impl_->overlay_pixels != frame.pixels;
-  if (impl_->overlay_image.isNull() || resized || !(overlay == impl_->overlay_shown)) {
-    impl_->overlay_image = draw_overlay(overlay, frame.pixels, ratio);
-    impl_->overlay_shown = overlay;
-  }
+  const bool resized = impl_->tools_pixels != frame.pixels;
+  std::vector<GlCanvas::Layer> layers =
+      impl_->overlay_layers.layers_of(overlay, frame.pixels, ratio);
   if (resized || !(tools == impl_->tools_shown)) {
     impl_->tools_image = draw_tools(tools, size, ratio, impl_->tools_at);
     impl_->tools_shown = tools;
   }
-  impl_->overlay_pixels = frame.pixels;
-  impl_->canvas.show({{impl_->overlay_image, {}}, {impl_->tools_image, impl_->tools_at}},
-                     defaultFramebufferObject());
+  impl_->tools_pixels = frame.pixels;
+  layers.push_back({impl_->tools_image, impl_->tools_at});
+  impl_->canvas.show(layers, defaultFramebufferObject());
 }
 
 }  // namespace arris::ui

@@ -15,6 +15,7 @@
 #include "core/curvature/fields.h"
 #include "core/mesh/mesh.h"
 #include "ui/view/colour_scale.h"
+#include "ui/view/navigation.h"
 #include "ui/view/view_camera.h"
 
 namespace arris::ui {
@@ -154,6 +155,10 @@ class MeshView : public QOpenGLWidget {
   /// Points marked by small rings, as the picks of a path so far.
   void set_picked_points(std::vector<Point> points);
 
+  /// Which buttons of the mouse move the camera. The left one is the tools' where no rule has it.
+  void set_navigation(NavigationStyle style);
+  NavigationStyle navigation() const;
+
   /// Another tool; what the one before had begun is dropped. `hint` replaces the line at the bottom
   /// that tells what the tool does. Esc goes back to Tool::select.
   void set_tool(Tool tool, const QString& hint = {});
@@ -184,8 +189,12 @@ class MeshView : public QOpenGLWidget {
   void look_from(StandardView view);  ///< z is up; fits the part.
   Point towards_viewer() const;
   const ViewCamera& camera() const;
+  QSizeF extent_seen() const;  ///< Of the whole part across and up the view, in its unit.
   void set_camera(const ViewCamera& camera);  ///< Its height within what the part allows.
-  void zoom_by(double factor);                ///< Magnifies about the middle of the view.
+  /// As a cap that is held like the part moves it: shares of the view a second, radians a second.
+  void fly(double right, double up, double towards, double about_right, double about_up,
+           double seconds);
+  void zoom_by(double factor);  ///< Magnifies about the middle of the view.
   /// Takes over how another view looks at its part: camera, section, surface, ground and light,
   /// what of lines and edges is visible. Not the scalar bar: two views side by side need one.
   void look_like(const MeshView& other);

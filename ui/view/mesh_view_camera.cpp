@@ -113,6 +113,19 @@ Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); 
 
 const ViewCamera& MeshView::camera() const { return impl_->camera; }
 
+QSizeF MeshView::extent_seen() const {
+  if (!impl_->mesh || impl_->mesh->face_count() == 0) return {0.0, 0.0};
+  const Eigen::Matrix3d to_view = impl_->camera.axes().transpose();
+  Point low = to_view * impl_->mesh->box_max(), high = low;
+  for (VertexId v = 0; v < impl_->mesh->vertex_count(); ++v) {
+    if (impl_->mesh->is_isolated(v)) continue;
+    const Point local = to_view * impl_->mesh->point(v);
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+  }
+  return {high.x() - low.x(), high.y() - low.y()};
+}
+
 void MeshView::set_camera(const ViewCamera& camera) {
   uncover();
   impl_->camera = camera;

@@ -15,7 +15,7 @@
 #include "core/base/vector_state.h"
 #include "ui/view/gl_canvas.h"
 #include "ui/view/mesh_view.h"
-#include "ui/view/overlay.h"
+#include "ui/view/overlay_layers.h"
 #include "ui/view/picker.h"
 #include "ui/view/scene.h"
 #include "ui/view/tool_overlay.h"
@@ -65,10 +65,12 @@ struct MeshView::Impl {
     bool dark = false;
     bool fields_lit = false;
     bool flat = false;
+    NavigationStyle navigation = NavigationStyle::arris;
     bool operator==(const Look&) const = default;
   };
 
-  enum class Drag { none, orbit, pan, zoom, band, paint, line };
+  /// `click`: the left button is down and moves nothing.
+  enum class Drag { none, orbit, pan, zoom, band, paint, line, click };
 
   MeshPtr mesh;
   LengthUnit unit = LengthUnit::unknown;
@@ -102,6 +104,8 @@ struct MeshView::Impl {
   bool coarse_given = false, reference_coarse_given = false;  // to the scene
   QThreadPool workers;  // of its own: a click must not wait for other work of the program
 
+  const NavigationInfo* navigation = &navigation_table().front();
+  bool after_second = false;  // see NavigationRule
   Drag drag = Drag::none;
   bool dragged = false;
   Qt::MouseButton button = Qt::NoButton;
@@ -123,11 +127,11 @@ struct MeshView::Impl {
   VertexId grabbed_vertex = no_id, dragged_vertex = no_id;
   std::vector<Point> picked_points;
 
-  QImage overlay_image, tools_image;
+  OverlayLayers overlay_layers;
+  QImage tools_image;
   QPoint tools_at;
-  Overlay overlay_shown;
   ToolOverlay tools_shown;
-  QSize overlay_pixels;
+  QSize tools_pixels;
 
   void show_ground();
   double least_height() const { return mesh ? std::max(mesh->diagonal() * 1e-5, 1e-30) : 1e-30; }
@@ -145,6 +149,11 @@ struct MeshView::Impl {
   bool covers(const std::vector<Point>& points, const ViewCamera& seen, QSizeF size) const;
   void look_upright(const Point& towards_viewer);
   QString hint_shown() const;
+  bool moves_camera() const {
+    return drag == Drag::orbit || drag == Drag::pan || drag == Drag::zoom;
+  }
+  /// The drag that the buttons held mean in the style of navigation; `otherwise`: none of it.
+  Drag drag_of(Qt::MouseButtons buttons, Qt::KeyboardModifiers modifiers, Drag otherwise) const;
   void show_lines();
   void show_marked_paths();
   /// The runs of a path that are not between two hidden faces.
@@ -162,7 +171,8 @@ struct MeshView::Impl {
             scene.edges_visible(),
             dark,
             scene.fields_lit(),
-            scene.flat()};
+            scene.flat(),
+            navigation->style};
   }
 
   PickSpace space(const RayTree& with, QSizeF size) const {

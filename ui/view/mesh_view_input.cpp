@@ -133,8 +133,38 @@ void MeshView::hover() {
   emit hovered(found);
 }
 
+MeshView::Impl::Drag MeshView::Impl::drag_of(Qt::MouseButtons buttons,
+                                             Qt::KeyboardModifiers modifiers,
+                                             Drag otherwise) const {
+  const std::optional<Motion> motion = motion_of(*navigation, buttons, modifiers, after_second);
+  if (!motion) return otherwise;
+  switch (*motion) {
+    case Motion::orbit:
+      return Drag::orbit;
+    case Motion::pan:
+      return Drag::pan;
+    case Motion::zoom:
+      return Drag::zoom;
+  }
+  return otherwise;
+}
+
+void MeshView::set_navigation(NavigationStyle style) {
+  cancel_drag();
+  impl_->navigation = &navigation_info(style);
+  update();
+}
+
+NavigationStyle MeshView::navigation() const { return impl_->navigation->style; }
+
 void MeshView::mousePressEvent(QMouseEvent* event) {
-  if (impl_->drag != Impl::Drag::none) return;  // a second button while one is held
+  if (impl_->drag != Impl::Drag::none) {
+    // A second button while one is held: in some styles the camera moves in another way then.
+    if (impl_->moves_camera() && impl_->button != Qt::LeftButton)
+      impl_->drag = impl_->drag_of(event->buttons(), event->modifiers(), impl_->drag);
+    return;
+  }
+  impl_->after_second = false;
   const QPoint at = event->position().toPoint();
   impl_->button = event->button();
   impl_->pressed_at = impl_->last_at = at;
@@ -144,11 +174,8 @@ void MeshView::mousePressEvent(QMouseEvent* event) {
       press_left(at, event->modifiers());
       break;
     case Qt::MiddleButton:
-      impl_->drag =
-          event->modifiers().testFlag(Qt::ShiftModifier) ? Impl::Drag::orbit : Impl::Drag::pan;
-      break;
     case Qt::RightButton:
-      impl_->drag = Impl::Drag::zoom;
+      impl_->drag = impl_->drag_of(event->button(), event->modifiers(), Impl::Drag::click);
       break;
     default:
       event->ignore();
@@ -164,13 +191,13 @@ void MeshView::mousePressEvent(QMouseEvent* event) {
 
 void MeshView::press_left(const QPoint& at, Qt::KeyboardModifiers modifiers) {
   const bool shift = modifiers.testFlag(Qt::ShiftModifier);
-  impl_->drag =
-      modifiers.testFlag(Qt::ControlModifier) && !shift ? Impl::Drag::pan : Impl::Drag::orbit;
-  if (impl_->tool == Tool::band || (impl_->tool == Tool::select && shift)) {
+  const bool draws_band = shift || !impl_->navigation->left_moves();
+  impl_->drag = impl_->drag_of(Qt::LeftButton, modifiers, Impl::Drag::click);
+  if (impl_->tool == Tool::band || (impl_->tool == Tool::select && draws_band)) {
     impl_->drag = Impl::Drag::band;
     return;
   }
-  if (impl_->drag != Impl::Drag::orbit) return;
+  if (impl_->drag == Impl::Drag::pan) return;
   if (impl_->tool == Tool::brush) {
     const auto found = pick(at);
     if (!found || found->face == no_id) return;
@@ -232,6 +259,7 @@ void MeshView::mouseMoveEvent(QMouseEvent* event) {
     case Impl::Drag::line:
       drag_tool(at);
       break;
+    case Impl::Drag::click:
     case Impl::Drag::none:
       break;
   }
@@ -282,7 +310,14 @@ void MeshView::paint_to(const QPoint& at) {
 }
 
 void MeshView::mouseReleaseEvent(QMouseEvent* event) {
-  if (impl_->drag == Impl::Drag::none || event->button() != impl_->button) return;
+  if (impl_->drag == Impl::Drag::none) return;
+  if (event->button() != impl_->button) {
+    if (impl_->moves_camera() && impl_->button != Qt::LeftButton) {
+      impl_->after_second = true;
+      impl_->drag = impl_->drag_of(event->buttons(), event->modifiers(), impl_->drag);
+    }
+    return;
+  }
   const bool toggle = event->modifiers().testFlag(Qt::ControlModifier);
   if (impl_->drag == Impl::Drag::paint || impl_->drag == Impl::Drag::line ||
       (impl_->drag == Impl::Drag::band && impl_->dragged)) {
@@ -374,14 +409,35 @@ void MeshView::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void MeshView::wheelEvent(QWheelEvent* event) {
-  const double steps = event->angleDelta().y() / 120.0;
+  double steps = event->angleDelta().y() / 120.0;
   event->accept();
   if (impl_->tool == Tool::brush && event->modifiers().testFlag(Qt::ControlModifier)) {
     set_brush_radius(impl_->brush_radius * std::pow(wheel_radius, steps));
     return;
   }
+  if (impl_->navigation->wheel_up_is_away) steps = -steps;
   impl_->camera.zoom(std::pow(wheel_zoom, steps), event->position(), logical_size(*this),
                      impl_->least_height(), impl_->most_height());
+  moved();
+}
+
+void MeshView::fly(double right, double up, double towards, double about_right, double about_up,
+                   double seconds) {
+  if (!impl_->mesh || impl_->drag != Impl::Drag::none) return;
+  constexpr double shares_a_second = 0.8, radians_a_second = 1.6, zooms_a_second = 1.2;
+  const QSizeF size = logical_size(*this);
+  uncover();
+  // About what is in the middle of the view, in the depth of the part.
+  const Point middle = (impl_->mesh->box_min() + impl_->mesh->box_max()) / 2;
+  const Point& towards_viewer = impl_->camera.towards_viewer();
+  const Point pivot =
+      impl_->camera.focus() + towards_viewer * (middle - impl_->camera.focus()).dot(towards_viewer);
+  const double turn = radians_a_second * seconds;
+  impl_->camera.orbit(pivot, -about_up * turn, -about_right * turn);
+  impl_->camera.pan(QPointF(right, -up) * (shares_a_second * seconds * size.height()), size);
+  impl_->camera.zoom(std::exp(towards * zooms_a_second * seconds),
+                     QPointF(size.width() / 2.0, size.height() / 2.0), size, impl_->least_height(),
+                     impl_->most_height());
   moved();
 }
 

@@ -316,7 +316,7 @@ QRectF paint_line_legend(QPainter& painter, const Look& look, QSizeF size, const
 }
 
 /// Between the orientation marker and the scale bar where it fits there, else above them.
-void paint_hint(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay) {
+QRectF paint_hint(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay) {
   constexpr double left = 116.0, right = 196.0;  // that marker and scale bar may take
   const double line = QFontMetricsF(look.font).height();
   const double most = size.width() - 2 * margin - 2 * padding;
@@ -334,19 +334,20 @@ void paint_hint(QPainter& painter, const Look& look, QSizeF size, const Overlay&
       between ? std::clamp(middle, left, size.width() - right - width) : std::max(middle, margin);
   const bool free = between || (!overlay.orientation_marker && !overlay.scale_bar);
   const QRectF panel(x, size.height() - margin - height - (free ? 0.0 : 88.0), width, height);
-  if (panel.top() < margin) return;
+  if (panel.top() < margin) return {};
   paint_panel(painter, look, panel);
   for (int k = 0; k < lines.size(); ++k)
     paint_text(painter, look.font, look.text, {x, panel.top() + 6.0 + k * line, width, line},
                Qt::AlignCenter, lines[k]);
+  return panel;
 }
 
-void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
-                     const QRectF& taken) {
+QRectF paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
+                       const QRectF& taken) {
   const double most = std::min(160.0, 0.3 * size.width());
   const double length = round_length(most * overlay.units_per_pixel);
   const double pixels = length / overlay.units_per_pixel;
-  if (!(pixels > 8.0) || pixels > most * 1.0001) return;
+  if (!(pixels > 8.0) || pixels > most * 1.0001) return {};
   const QString number = short_number(length);
   const QString text = overlay.unit == LengthUnit::unknown
                            ? number + translated(" units")
@@ -356,7 +357,8 @@ void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Ove
   const QRectF panel(size.width() - margin - inner - 2 * padding,
                      size.height() - margin - line - 13.0 - padding, inner + 2 * padding,
                      line + 13.0 + padding);
-  if (panel.left() < 0.4 * size.width() || panel.top() < margin || panel.intersects(taken)) return;
+  if (panel.left() < 0.4 * size.width() || panel.top() < margin || panel.intersects(taken))
+    return {};
   paint_panel(painter, look, panel);
   paint_text(painter, look.font, look.text,
              {panel.left() + padding, panel.top() + 4.0, inner, line}, Qt::AlignCenter, text);
@@ -365,15 +367,16 @@ void paint_scale_bar(QPainter& painter, const Look& look, QSizeF size, const Ove
   painter.setPen(QPen(look.text, 1.6, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
   painter.setBrush(Qt::NoBrush);
   painter.drawPolyline(QPolygonF({{x, y - 5.0}, {x, y}, {x + pixels, y}, {x + pixels, y - 5.0}}));
+  return panel;
 }
 
-void paint_orientation(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
-                       const QRectF& taken) {
+QRectF paint_orientation(QPainter& painter, const Look& look, QSizeF size, const Overlay& overlay,
+                         const QRectF& taken) {
   constexpr double radius = 36.0;
   const QPointF centre(margin + radius + 8.0, size.height() - margin - radius - 8.0);
   const QRectF room(centre.x() - radius - 12.0, centre.y() - radius - 12.0, 2 * radius + 24.0,
                     2 * radius + 24.0);
-  if (size.width() < 3.2 * room.width() || room.top() < 0.0 || room.intersects(taken)) return;
+  if (size.width() < 3.2 * room.width() || room.top() < 0.0 || room.intersects(taken)) return {};
   struct Axis {
     Eigen::Vector3d direction;  // right, up, towards the viewer
     QColor colour;
@@ -412,6 +415,7 @@ void paint_orientation(QPainter& painter, const Look& look, QSizeF size, const O
       }
     }
   }
+  return room;
 }
 
 }  // namespace
@@ -506,18 +510,60 @@ std::array<QRectF, 2> overlay_panels(QSizeF size, const Overlay& overlay) {
   return paint_panels(painter, Look(overlay.dark), size, overlay);
 }
 
-void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
+Overlay part_of(const Overlay& overlay, OverlayPiece piece) {
+  Overlay part;
+  part.dark = overlay.dark;
+  part.scale_bar = overlay.scale_bar;
+  part.orientation_marker = overlay.orientation_marker;
+  switch (piece) {
+    case OverlayPiece::panels:
+      part.field = overlay.field;
+      part.field_has_undefined = overlay.field_has_undefined;
+      part.line_types = overlay.line_types;
+      part.unit = overlay.unit;
+      break;
+    case OverlayPiece::orientation:
+      part.axes = overlay.axes;
+      break;
+    case OverlayPiece::scale_bar:
+      part.units_per_pixel = overlay.units_per_pixel;
+      part.unit = overlay.unit;
+      break;
+    case OverlayPiece::hint:
+      part.hint = overlay.hint;
+      break;
+  }
+  return part;
+}
+
+QRectF paint_piece(QPainter& painter, QSizeF size, const Overlay& overlay, OverlayPiece piece,
+                   const std::array<QRectF, 2>& panels) {
   const Look look(overlay.dark);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing |
                          QPainter::SmoothPixmapTransform);
-  const auto [bar, legend] = paint_panels(painter, look, size, overlay);
-  if (overlay.orientation_marker) {
-    paint_orientation(painter, look, size, overlay, legend.united(QRectF()));
+  const auto& [bar, legend] = panels;
+  switch (piece) {
+    case OverlayPiece::panels: {
+      const auto painted = paint_panels(painter, look, size, overlay);
+      return painted[0].united(painted[1]);
+    }
+    case OverlayPiece::orientation:
+      return overlay.orientation_marker ? paint_orientation(painter, look, size, overlay, legend)
+                                        : QRectF();
+    case OverlayPiece::scale_bar:
+      return overlay.scale_bar
+                 ? paint_scale_bar(painter, look, size, overlay, bar.adjusted(0.0, 0.0, 0.0, 6.0))
+                 : QRectF();
+    case OverlayPiece::hint:
+      return overlay.hint.isEmpty() ? QRectF() : paint_hint(painter, look, size, overlay);
   }
-  if (overlay.scale_bar) {
-    paint_scale_bar(painter, look, size, overlay, bar.adjusted(0.0, 0.0, 0.0, 6.0));
-  }
-  if (!overlay.hint.isEmpty()) paint_hint(painter, look, size, overlay);
+  return {};
+}
+
+void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay) {
+  const std::array<QRectF, 2> panels = overlay_panels(size, overlay);
+  for (const OverlayPiece piece : overlay_pieces)
+    paint_piece(painter, size, overlay, piece, panels);
 }
 
 }  // namespace arris::ui

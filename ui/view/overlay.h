@@ -34,6 +34,19 @@ void paint_overlay(QPainter& painter, QSizeF size, const Overlay& overlay);
 /// Where the scalar bar and the legend of lines would be; empty where there is none.
 std::array<QRectF, 2> overlay_panels(QSizeF size, const Overlay& overlay);
 
+/// What is written, piece by piece, in the order of painting.
+enum class OverlayPiece { panels, orientation, scale_bar, hint };
+inline constexpr std::array overlay_pieces{OverlayPiece::panels, OverlayPiece::orientation,
+                                           OverlayPiece::scale_bar, OverlayPiece::hint};
+
+/// Paints one piece beside `panels` (those of overlay_panels()); all of it lies in the rectangle
+/// returned, which is empty where nothing was painted.
+QRectF paint_piece(QPainter& painter, QSizeF size, const Overlay& overlay, OverlayPiece piece,
+                   const std::array<QRectF, 2>& panels);
+
+/// What a piece is painted from, the rest as it is by default.
+Overlay part_of(const Overlay& overlay, OverlayPiece piece);
+
 /// A number with three significant digits, as an engineer writes it: 0.0123, 4.5·10⁻⁶.
 QString short_number(double value);
 /// Round values (1, 2, 5 times a power of ten) for about `wanted` ticks between the ends of a

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
@@ -265,66 +267,119 @@ Ribbons::Ribbons(vtkRenderer* renderer, std::vector<Stroke> strokes,
 
 Ribbons::~Ribbons() = default;
 
+namespace {
+
+constexpr std::size_t corners_of_segment = 4;
+/// Numbers of a corner in each array: here, there, (corner, arc, other arc, stroke), left, right.
+constexpr std::array<std::size_t, 5> widths{3, 3, 4, 3, 3};
+constexpr std::size_t stroke_place = 3;
+
+using Floats = std::array<float*, widths.size()>;
+
+/// The four corners of a segment, from `at` on.
+void write_segment(const Mesh& mesh, const Point& origin, VertexId from, VertexId to, double arc,
+                   double next, Floats at) {
+  const Eigen::Vector3f a = (mesh.point(from) - origin).cast<float>();
+  const Eigen::Vector3f b = (mesh.point(to) - origin).cast<float>();
+  const auto sides = side_directions(mesh, from, to);
+  const std::array<Eigen::Vector3f, 2> beside{sides[0].cast<float>(), sides[1].cast<float>()};
+  for (std::size_t k = 0; k < corners_of_segment; ++k) {
+    const bool at_second = k > 1;
+    const Eigen::Vector3f there = at_second ? a : b;
+    Eigen::Vector3f here = at_second ? b : a;
+    if (k % 2 == 1) here += 0.25F * (there - here);
+    const std::array<float, 3> corner{static_cast<float>(k),
+                                      static_cast<float>(at_second ? next : arc),
+                                      static_cast<float>(at_second ? arc : next)};
+    std::copy_n(here.data(), 3, at[0] + k * widths[0]);
+    std::copy_n(there.data(), 3, at[1] + k * widths[1]);
+    std::copy_n(corner.data(), 3, at[2] + k * widths[2]);
+    std::copy_n(beside[0].data(), 3, at[3] + k * widths[3]);
+    std::copy_n(beside[1].data(), 3, at[4] + k * widths[4]);
+  }
+}
+
+std::uint64_t key_of(const std::vector<VertexId>& path) {
+  const std::uint64_t ends = (std::uint64_t{path.front()} << 32) | path.back();
+  return ends ^ (std::uint64_t{path[path.size() / 2]} * 0x9E3779B97F4A7C15u);
+}
+
+}  // namespace
+
 void Ribbons::set_lines(const Mesh& mesh, const Point& origin, const std::vector<Line>& lines) {
   std::size_t segments = 0;
   for (const Line& line : lines) segments += std::max<std::size_t>(line.vertices->size(), 1) - 1;
-  const auto points = floats("points", 3, 4 * segments);
-  const auto other = floats("otherMC", 3, 4 * segments);
-  const auto corner = floats("cornerMC", 4, 4 * segments);
-  const auto left = floats("leftMC", 3, 4 * segments);
-  const auto right = floats("rightMC", 3, 4 * segments);
+  const std::array<const char*, widths.size()> names{"points", "otherMC", "cornerMC", "leftMC",
+                                                     "rightMC"};
+  std::array<vtkSmartPointer<vtkFloatArray>, widths.size()> arrays;
+  for (std::size_t k = 0; k < arrays.size(); ++k)
+    arrays[k] = floats(names[k], static_cast<int>(widths[k]), corners_of_segment * segments);
+  const auto place = [](const auto& of, std::size_t segment) {
+    Floats at{};
+    for (std::size_t k = 0; k < at.size(); ++k)
+      at[k] = of[k]->GetPointer(static_cast<vtkIdType>(segment * corners_of_segment * widths[k]));
+    return at;
+  };
+
+  // While a threshold is dragged most lines are those of a moment ago.
+  std::unordered_multimap<std::uint64_t, const Kept*> known;
+  for (const Kept& kept : kept_) known.emplace(key_of(kept.vertices), &kept);
+  std::vector<Kept> keep;
+  keep.reserve(lines.size());
+  std::size_t segment = 0;
+  for (const Line& line : lines) {
+    const std::vector<VertexId>& path = *line.vertices;
+    if (path.size() < 2) continue;
+    const std::size_t count = path.size() - 1;
+    const Floats to = place(arrays, segment);
+    const auto [from, end] = known.equal_range(key_of(path));
+    const auto same =
+        std::find_if(from, end, [&](const auto& other) { return other.second->vertices == path; });
+    if (same != end) {
+      const Floats old = place(arrays_, same->second->segment);
+      for (std::size_t k = 0; k < to.size(); ++k)
+        std::copy_n(old[k], count * corners_of_segment * widths[k], to[k]);
+    } else {
+      double arc = 0.0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double next = arc + (mesh.point(path[i + 1]) - mesh.point(path[i])).norm();
+        write_segment(mesh, origin, path[i], path[i + 1], arc, next, place(arrays, segment + i));
+        arc = next;
+      }
+    }
+    for (std::size_t k = 0; k < count * corners_of_segment; ++k)
+      to[2][k * widths[2] + stroke_place] = static_cast<float>(line.stroke);
+    keep.push_back({path, segment});
+    segment += count;
+  }
+  kept_ = std::move(keep);
+  arrays_ = arrays;
+
   vtkNew<vtkTypeInt32Array> offsets;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(2 * segments + 1));
   vtkNew<vtkTypeInt32Array> corners;
   corners->SetNumberOfValues(static_cast<vtkIdType>(6 * segments));
-  for (std::size_t i = 0; i <= 2 * segments; ++i) {
+  for (std::size_t i = 0; i <= 2 * segments; ++i)
     offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(3 * i));
-  }
-  std::size_t segment = 0;
-  for (const Line& line : lines) {
-    double arc = 0.0;
-    for (std::size_t i = 0; i + 1 < line.vertices->size(); ++i, ++segment) {
-      const std::array<VertexId, 2> ends{(*line.vertices)[i], (*line.vertices)[i + 1]};
-      const Point a = mesh.point(ends[0]) - origin;
-      const Point b = mesh.point(ends[1]) - origin;
-      const double next = arc + (b - a).norm();
-      const auto sides = side_directions(mesh, ends[0], ends[1]);
-      const Eigen::Vector3f left_side = sides[0].cast<float>();
-      const Eigen::Vector3f right_side = sides[1].cast<float>();
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto at = static_cast<vtkIdType>(4 * segment + k);
-        const bool at_second = k > 1;
-        const Eigen::Vector3f there = (at_second ? a : b).cast<float>();
-        Eigen::Vector3f here = (at_second ? b : a).cast<float>();
-        if (k % 2 == 1) here += 0.25F * (there - here);
-        points->SetTypedTuple(at, here.data());
-        other->SetTypedTuple(at, there.data());
-        corner->SetTuple4(at, static_cast<double>(k), at_second ? next : arc,
-                          at_second ? arc : next, line.stroke);
-        left->SetTypedTuple(at, left_side.data());
-        right->SetTypedTuple(at, right_side.data());
-      }
-      constexpr std::array<int, 6> quad{0, 1, 2, 2, 1, 3};
-      for (std::size_t k = 0; k < quad.size(); ++k) {
-        corners->SetValue(static_cast<vtkIdType>(6 * segment + k),
-                          static_cast<std::int32_t>(4 * segment) + quad[k]);
-      }
-      arc = next;
-    }
-  }
+  constexpr std::array<int, 6> quad{0, 1, 2, 2, 1, 3};
+  for (std::size_t i = 0; i < 6 * segments; ++i)
+    corners->SetValue(static_cast<vtkIdType>(i),
+                      static_cast<std::int32_t>(corners_of_segment * (i / 6)) + quad[i % 6]);
   vtkNew<vtkPoints> shell;
-  shell->SetData(points);
+  shell->SetData(arrays[0]);
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets.Get(), corners.Get());
   data_->Initialize();
   data_->SetPoints(shell);
   data_->SetPolys(cells);
-  for (const auto& array : {other, corner, left, right}) data_->GetPointData()->AddArray(array);
+  for (std::size_t k = 1; k < arrays.size(); ++k) data_->GetPointData()->AddArray(arrays[k]);
   empty_ = segments == 0;
   set_visible(visible_);
 }
 
 void Ribbons::clear() {
+  kept_.clear();
+  arrays_ = {};
   data_->Initialize();
   empty_ = true;
   set_visible(visible_);

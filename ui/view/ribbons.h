@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <QColor>
@@ -10,6 +11,7 @@
 #include "core/mesh/mesh.h"
 
 class vtkActor;
+class vtkFloatArray;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
@@ -81,7 +83,8 @@ class Ribbons {
     const std::vector<VertexId>* vertices;
     int stroke;
   };
-  /// `origin` is subtracted from the points of the mesh.
+  /// `origin` is subtracted from the points of the mesh; both are those of the call before, or
+  /// clear() comes between. Lines of the call before are not worked out anew.
   void set_lines(const Mesh& mesh, const Point& origin, const std::vector<Line>& lines);
   void clear();
   void set_visible(bool visible);
@@ -92,6 +95,13 @@ class Ribbons {
   std::vector<StrokeLayer> layers_;
   std::vector<vtkSmartPointer<vtkActor>> actors_;
   vtkNew<vtkPolyData> data_;
+  /// A line that is drawn, and where its segments begin in the arrays.
+  struct Kept {
+    std::vector<VertexId> vertices;
+    std::size_t segment;
+  };
+  std::vector<Kept> kept_;
+  std::array<vtkSmartPointer<vtkFloatArray>, 5> arrays_;
   bool visible_ = true;
   bool empty_ = true;
 };

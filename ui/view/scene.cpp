@@ -572,12 +572,16 @@ void Scene::set_field(const std::optional<ViewField>& field) {
   refresh();
 }
 
-void Scene::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours) {
+bool Scene::set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours) {
+  if (body_->mesh && labels.size() != body_->mesh->face_count()) labels.clear();
+  // While a threshold is dragged often nothing is other than a moment ago, and the kept picture of
+  // the surface stays.
+  if (labels == labels_ && (labels.empty() || colours == label_colours_)) return false;
   labels_ = std::move(labels);
-  if (body_->mesh && labels_.size() != body_->mesh->face_count()) labels_.clear();
   label_colours_ = std::move(colours);
   outline_selection();
   refresh();
+  return true;
 }
 
 void Scene::set_selected_labels(std::unordered_set<std::uint32_t> labels) {

@@ -59,7 +59,8 @@ class Scene {
   void set_hidden_reference_faces(std::vector<bool> hidden);  ///< The same, of the reference.
   void set_section(const std::optional<Section>& section);
   void set_field(const std::optional<ViewField>& field);
-  void set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
+  /// Whether the surface looks other than before.
+  bool set_face_labels(std::vector<std::uint32_t> labels, std::vector<QColor> colours);
   void set_selected_labels(std::unordered_set<std::uint32_t> labels);
   void set_lines(const std::vector<ViewLine>& lines);
   void set_selected_lines(const std::vector<ViewLine>& lines,

@@ -197,6 +197,7 @@ void MainMenus::make_view_menu() {
   connect(zoom_, &QAction::triggered, parts_.elements, &ElementsPresenter::zoom_to_selection);
   make_standard_views(look->addMenu(tr("S&tandard views")));
   parts_.named_views->add_actions(look->addMenu(tr("Na&med views")));
+  make_navigation(look->addMenu(tr("Mouse na&vigation")));
   look->addSeparator();
   QMenu* panels = look->addMenu(tr("Pa&nels"));
   for (QDockWidget* dock : window_->findChildren<QDockWidget*>())
@@ -279,6 +280,22 @@ void MainMenus::make_standard_views(QMenu* standard) {
     connect(a, &QAction::triggered, this,
             [this, v = views[k].second] { parts_.view->look_from(v); });
     part_actions_.push_back(a);
+  }
+}
+
+void MainMenus::make_navigation(QMenu* menu) {
+  auto* styles = new QActionGroup(this);
+  const NavigationStyle chosen = navigation_style(QSettings().value("view/navigation").toString());
+  for (const NavigationInfo& info : navigation_table()) {
+    QAction* a = action(menu, info.name, {}, navigation_summary(info));
+    a->setCheckable(true);
+    styles->addAction(a);
+    connect(a, &QAction::toggled, this, [this, &info](bool on) {
+      if (!on) return;
+      parts_.view->set_navigation(info.style);
+      QSettings().setValue("view/navigation", info.key);
+    });
+    a->setChecked(info.style == chosen);
   }
 }
 

@@ -47,6 +47,7 @@ class MainMenus : public QObject {
   void make_field_menu(QMenu* menu);
   void add_toggles(QMenu* look);
   void make_standard_views(QMenu* standard);
+  void make_navigation(QMenu* menu);
   void make_help_menu();
   HelpWindow* open_help();
   void show_help();

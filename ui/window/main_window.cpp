@@ -1,6 +1,7 @@
 #include "ui/window/main_window.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <QAbstractEventDispatcher>
 #include <QCloseEvent>
@@ -20,6 +21,7 @@
 #include "ui/panels/section_bar.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/unit_bar.h"
+#include "ui/view/space_mouse.h"
 #include "ui/window/comparison_presenter.h"
 #include "ui/window/corrections_presenter.h"
 #include "ui/window/docks.h"
@@ -185,6 +187,16 @@ void MainWindow::follow() {
   connect(parts_.files, &FilesPresenter::message, status, &StatusPresenter::tell);
   connect(parts_.pictures, &PicturesPresenter::message, status, &StatusPresenter::tell);
   connect(parts_.results, &ResultsPresenter::message, status, &StatusPresenter::tell);
+  auto* space_mouse = new SpaceMouse(this);
+  connect(space_mouse, &SpaceMouse::moved, parts_.view,
+          [this](double right, double up, double towards, double about_right, double about_up,
+                 double seconds) {
+            if (isActiveWindow())
+              parts_.view->fly(right, up, towards, about_right, about_up, seconds);
+          });
+  connect(space_mouse, &SpaceMouse::pressed, parts_.view, [this](int) {
+    if (isActiveWindow()) parts_.view->fit();
+  });
   connect(parts_.view, &MeshView::hovered, this, [this](const std::optional<Pick>& pick) {
     parts_.status->show_hover(parts_.session->shown().document, pick);
   });
@@ -254,6 +266,34 @@ void MainWindow::reset_layout() {
   parts_.treatment_bar->setVisible(treatment);
   parts_.section_bar->setVisible(section);
   fit_screen();
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  // Once the panels have got their places in the new size.
+  QMetaObject::invokeMethod(this, &MainWindow::give_view_room, Qt::QueuedConnection);
+}
+
+void MainWindow::give_view_room() {
+  QList<QDockWidget*> docks;  // one of each side: those tabbed with it go with it
+  QList<int> widths, spare;
+  for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea})
+    for (QDockWidget* dock : findChildren<QDockWidget*>())
+      if (dockWidgetArea(dock) == area && !dock->isFloating() && !dock->visibleRegion().isEmpty()) {
+        docks << dock;
+        widths << dock->width();
+        int least = dock->minimumSizeHint().width();
+        for (const QDockWidget* tab : tabifiedDockWidgets(dock))
+          least = std::max(least, tab->minimumSizeHint().width());
+        spare << std::max(0, dock->width() - least);
+        break;
+      }
+  const int all = std::accumulate(spare.begin(), spare.end(), 0);
+  const int missing = (width() + 1) / 2 - centralWidget()->width();
+  if (missing <= 0 || all == 0) return;
+  for (qsizetype k = 0; k < widths.size(); ++k)
+    widths[k] -= std::min(spare[k], missing * spare[k] / all + 1);
+  resizeDocks(docks, widths, Qt::Horizontal);
 }
 
 void MainWindow::fit_screen() {

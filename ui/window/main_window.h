@@ -50,6 +50,7 @@ class MainWindow : public QMainWindow {
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   /// Tab goes through what is on the screen, in its order.
   bool focusNextPrevChild(bool next) override;
 
@@ -65,6 +66,8 @@ class MainWindow : public QMainWindow {
   void reset_layout();
   /// Makes the window no larger than its screen, and puts it there.
   void fit_screen();
+  /// At least half of the width is the view's, as far as panels can give way.
+  void give_view_room();
   void refresh_title();
   ViewKeepers view_keepers() const;
 

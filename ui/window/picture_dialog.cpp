@@ -59,6 +59,8 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
   scale_->addItem(tr("As in the view"), 0.0);
   for (const Scale& one : scales) scale_->addItem(one.text, one.factor);
   pixels_ = new QLabel(this);
+  pixels_->setObjectName("picture_pixels");
+  pixels_->setWordWrap(true);
   keep_proportion_ = new QCheckBox(tr("Proportion of the view"), this);
   keep_proportion_->setChecked(true);
   scalar_bar_ = new QCheckBox(tr("Scalar bar"), this);
@@ -134,6 +136,7 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
     refresh();
   });
   connect(dots_, &QSpinBox::valueChanged, this, &PictureDialog::refresh);
+  connect(scale_, &QComboBox::currentIndexChanged, this, &PictureDialog::refresh);
   connect(unit_, &QComboBox::currentIndexChanged, this, &PictureDialog::change_unit);
   follow(height_, false);
   if (settings.value("pictures/millimetres", false).toBool()) unit_->setCurrentIndex(1);
@@ -174,7 +177,15 @@ void PictureDialog::refresh() {
                      : millimetres ? tr("The unit of the part is not known: Part ▸ Unit of lengths")
                                    : tr("Pixels have no length: choose millimetres"));
   const QSize size = options().size;
-  pixels_->setText(tr("%1 × %2 pixels").arg(size.width()).arg(size.height()));
+  QString text = tr("%1 × %2 pixels").arg(size.width()).arg(size.height());
+  const double scale = to_scale ? scale_->currentData().toDouble() : 0.0;
+  const QSizeF on_paper = part_.extent * (scale * part_.millimetres);
+  if (on_paper.width() > width_->value() || on_paper.height() > height_->value())
+    text += tr(". The part does not fit: at %1 it takes %2 × %3 mm.")
+                .arg(scale_->currentText())
+                .arg(std::ceil(on_paper.width()))
+                .arg(std::ceil(on_paper.height()));
+  pixels_->setText(text);
 }
 
 PictureOptions PictureDialog::options() const {

@@ -23,6 +23,7 @@ class PictureDialog : public QDialog {
   Q_OBJECT
  public:
   struct Part {
+    QSizeF extent;             ///< As it is seen, in its unit.
     QSize view_size;           ///< The width follows the height in its proportion.
     bool named_views = false;  ///< There are some to make pictures of.
     double millimetres =

@@ -93,8 +93,9 @@ void PicturesPresenter::choose() {
   const LengthUnit unit = length_unit_of(document);
   PictureDialog dialog(
       options_,
-      {shown_->size(), !views_->views().empty(), info_of(unit).millimetres,
-       QFileInfo(session_->part_name()).completeBaseName(), thresholds_of(document)},
+      {keepers_().view->extent_seen(), shown_->size(), !views_->views().empty(),
+       info_of(unit).millimetres, QFileInfo(session_->part_name()).completeBaseName(),
+       thresholds_of(document)},
       window_);
   if (dialog.exec() != QDialog::Accepted) return;
   options_ = dialog.options();

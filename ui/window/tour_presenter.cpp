@@ -51,7 +51,7 @@ const std::vector<TourStep>& TourPresenter::steps() {
   static const std::vector<TourStep> table{
       {tr("Look"),
        tr("Curvature shows in colours what the eye misses in the shape."),
-       tr("Drag with the left button to turn the part; the wheel zooms to the pointer."),
+       tr("%1 to turn the part; the wheel zooms to the pointer."),
        tr("press <b>Alt+J</b> for the normal jump, which shows sharp lines, or choose another "
           "field here."),
        tr("another field is shown, and its histogram below."),
@@ -287,6 +287,8 @@ void TourPresenter::show_page() {
     page.count = static_cast<int>(steps().size());
     page.title = step.title;
     page.text = step.gist.toHtmlEscaped() + " " + step.text;
+    if (page.text.contains("%1"))
+      page.text = page.text.arg(how_to(navigation_info(view_->navigation()), Motion::orbit));
     page.task = task();
     page.result = step.result;
     page.done = done_;

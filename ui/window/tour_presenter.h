@@ -25,7 +25,7 @@ class TourPresenter;
 struct TourStep {
   QString title;
   QString gist;       ///< One sentence; the start page shows it, and the card begins with it.
-  QString text;       ///< What else there is to know.
+  QString text;       ///< What else there is to know; %1: how the mouse turns the part.
   QString task;       ///< What the user is to do.
   QString result;     ///< What is there once it is done.
   QString target;     ///< What the card points at: a dock's name, "view" or "save_picture".
