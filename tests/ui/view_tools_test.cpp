@@ -452,6 +452,27 @@ TEST_F(ViewToolsTest, WhereTheLeftButtonMovesNothingItDrawsARectangleAndClicks) 
   }
 }
 
+TEST_F(ViewToolsTest, ACapMovesThePartAndNothingDuringADrag) {
+  show_plane();
+  const ViewCamera before = view_.camera();
+  view_.fly(0.0, 0.0, 0.0, 0.0, 0.0, 0.03);
+  EXPECT_FALSE(motion_between(before, view_.camera()));
+  view_.fly(0.0, 0.0, 0.0, 0.0, 1.0, 0.1);
+  EXPECT_EQ(motion_between(before, view_.camera()), Motion::orbit);
+  view_.set_camera(before);
+  view_.fly(1.0, 0.0, 0.0, 0.0, 0.0, 0.1);
+  EXPECT_EQ(motion_between(before, view_.camera()), Motion::pan);
+  EXPECT_LT((view_.camera().focus() - before.focus()).dot(before.right()), 0.0) << "with the part";
+  view_.set_camera(before);
+  view_.fly(0.0, 0.0, 1.0, 0.0, 0.0, 0.1);
+  EXPECT_LT(view_.camera().height(), before.height()) << "towards the user it is larger";
+  view_.set_camera(before);
+  press(middle());
+  view_.fly(1.0, 1.0, 1.0, 1.0, 1.0, 0.1);
+  EXPECT_FALSE(motion_between(before, view_.camera()));
+  release(middle());
+}
+
 TEST_F(ViewToolsTest, TheWheelGoesTheWayOfTheStyle) {
   show_plane();
   for (const NavigationInfo& info : navigation_table()) {

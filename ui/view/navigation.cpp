@@ -79,27 +79,36 @@ std::optional<Motion> motion_of(const NavigationInfo& info, Qt::MouseButtons but
   return plain;
 }
 
-QString how_to(const NavigationInfo& info, Motion motion) {
+namespace {
+
+/// What is held for a motion: "the middle button and Shift".
+QString held_for(const NavigationInfo& info, Motion motion) {
   const auto rule = std::ranges::find(info.rules, motion, &NavigationRule::motion);
   if (rule == info.rules.end()) return {};
+  if (rule->after_second) return translated("the middle button, after a click of the left one");
   QStringList held;
   for (const auto& [button, name] : {std::pair{Qt::MiddleButton, translated("middle")},
                                      {Qt::LeftButton, translated("left")},
                                      {Qt::RightButton, translated("right")}})
     if (rule->buttons.testFlag(button)) held << name;
-  if (rule->after_second) return translated("Hold the middle button, click the left one and drag");
-  if (held.size() == 2)
-    return translated("Drag with the %1 and the %2 button").arg(held[0], held[1]);
+  if (held.size() == 2) return translated("the %1 and the %2 button").arg(held[0], held[1]);
   if (rule->modifiers.testFlag(Qt::ShiftModifier))
-    return translated("Drag with the %1 button and Shift").arg(held[0]);
+    return translated("the %1 button and Shift").arg(held[0]);
   if (rule->modifiers.testFlag(Qt::ControlModifier))
-    return translated("Drag with the %1 button and Ctrl").arg(held[0]);
-  return translated("Drag with the %1 button").arg(held[0]);
+    return translated("the %1 button and Ctrl").arg(held[0]);
+  return translated("the %1 button").arg(held[0]);
+}
+
+}  // namespace
+
+QString how_to(const NavigationInfo& info, Motion motion) {
+  return translated("Drag with %1").arg(held_for(info, motion));
 }
 
 QString navigation_summary(const NavigationInfo& info) {
-  return translated("Turn: %1. Move: %2. Zoom: %3, or the wheel.")
-      .arg(how_to(info, Motion::orbit), how_to(info, Motion::pan), how_to(info, Motion::zoom));
+  return translated("Turn with %1, move with %2, zoom with %3 or the wheel")
+      .arg(held_for(info, Motion::orbit), held_for(info, Motion::pan),
+           held_for(info, Motion::zoom));
 }
 
 }  // namespace arris::ui
