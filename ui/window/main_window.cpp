@@ -270,11 +270,14 @@ void MainWindow::reset_layout() {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  // Once the panels have got their places in the new size.
-  QMetaObject::invokeMethod(this, &MainWindow::give_view_room, Qt::QueuedConnection);
+  // Once the panels have got their places in the new size. A round or two more: what one of them
+  // cannot give another has to.
+  constexpr int rounds = 3;
+  QMetaObject::invokeMethod(
+      this, [this] { give_view_room(rounds); }, Qt::QueuedConnection);
 }
 
-void MainWindow::give_view_room() {
+void MainWindow::give_view_room(int rounds) {
   QList<QDockWidget*> docks;  // one of each side: those tabbed with it go with it
   QList<int> widths, spare;
   for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea})
@@ -294,6 +297,9 @@ void MainWindow::give_view_room() {
   for (qsizetype k = 0; k < widths.size(); ++k)
     widths[k] -= std::min(spare[k], missing * spare[k] / all + 1);
   resizeDocks(docks, widths, Qt::Horizontal);
+  if (rounds > 1)
+    QMetaObject::invokeMethod(
+        this, [this, rounds] { give_view_room(rounds - 1); }, Qt::QueuedConnection);
 }
 
 void MainWindow::fit_screen() {

@@ -67,7 +67,7 @@ class MainWindow : public QMainWindow {
   /// Makes the window no larger than its screen, and puts it there.
   void fit_screen();
   /// At least half of the width is the view's, as far as panels can give way.
-  void give_view_room();
+  void give_view_room(int rounds);
   void refresh_title();
   ViewKeepers view_keepers() const;
 
