@@ -1,12 +1,14 @@
 #include "core/partitions/partitions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <unordered_map>
 
 #include "core/base/parallel.h"
+#include "core/base/parallel_sort.h"
 #include "core/mesh/geometry.h"
 #include "core/partitions/front_rule.h"
 
@@ -24,10 +26,13 @@ class Propagation {
       : mesh_(mesh), values_(values), lines_(lines), taken_(taken), rule_(mesh, values, lines) {
     rule_.count_all_votes();
     found_.labels.assign(mesh.face_count(), unassigned);
+    areas_.resize(mesh.face_count());
+    parallel_for(mesh.face_count(),
+                 [&](std::size_t f) { areas_[f] = face_area(mesh_, static_cast<FaceId>(f)); });
     for (VertexId v = 0; v < mesh.vertex_count(); ++v)
-      if (rule_.is_regular(v)) seeds_.push_back(v);
-    std::sort(seeds_.begin(), seeds_.end(), [&](VertexId a, VertexId b) {
-      return values_[a] != values_[b] ? values_[a] > values_[b] : a < b;
+      if (rule_.is_regular(v)) seeds_.push_back({values[v], v});
+    parallel_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+      return a.value != b.value ? a.value > b.value : a.vertex < b.vertex;
     });
   }
 
@@ -37,17 +42,33 @@ class Propagation {
       const FaceId face = static_cast<FaceId>(f);
       passes[f] = found_.labels[f] == unassigned && !is_taken(f) && rule_.passes(face, interval);
     });
+    // Where the front may go from each face, side by side in memory: the front itself jumps about.
+    ways_.resize(mesh_.face_count());
+    parallel_for(mesh_.face_count(), [&](std::size_t f) {
+      if (!passes[f]) return;
+      std::size_t k = 0;
+      for (const HalfEdgeId h : mesh_.sides(static_cast<FaceId>(f))) {
+        const FaceId across = mesh_.face(Mesh::opposite(h));
+        const bool open = across != no_id && passes[across] && !lines_.is_sharp(Mesh::edge_of(h));
+        ways_[f][k++] = open ? across : no_id;
+      }
+    });
+    // Seeds come in the order of their values, from all over the part: what is left round each is
+    // counted, so that nearly all of them cost one look.
+    open_faces_.assign(mesh_.vertex_count(), 0);
+    for (FaceId f = 0; f < mesh_.face_count(); ++f)
+      if (passes[f])
+        for (const VertexId v : mesh_.triangle(f)) ++open_faces_[v];
     const auto first = std::partition_point(seeds_.begin(), seeds_.end(),
-                                            [&](VertexId v) { return values_[v] > interval.max; });
-    for (auto seed = first; seed != seeds_.end() && values_[*seed] >= interval.min; ++seed) {
-      for (;;) {
+                                            [&](const Seed& s) { return s.value > interval.max; });
+    for (auto seed = first; seed != seeds_.end() && seed->value >= interval.min; ++seed) {
+      while (open_faces_[seed->vertex] > 0) {
         FaceId start = no_id;  // the passing face with the lowest number round the seed
-        mesh_.for_ring(*seed, [&](HalfEdgeId h) {
+        mesh_.for_ring(seed->vertex, [&](HalfEdgeId h) {
           const FaceId f = mesh_.face(h);
           if (f < start && passes[f] && found_.labels[f] == unassigned) start = f;
         });
-        if (start == no_id) break;  // faces that fail may part those round one seed
-        propagate(start, interval, options, passes);
+        propagate(start, interval, options, passes);  // faces that fail may part those round it
       }
     }
   }
@@ -149,7 +170,7 @@ class Propagation {
     found_.labels[f] = label;
     Partition& partition = found_.partitions[label - 1];
     ++partition.faces;
-    partition.area += face_area(mesh_, f);
+    partition.area += areas_[f];
   }
 
   void propagate(FaceId start, const CurvatureInterval& interval, const PartitionOptions& options,
@@ -158,15 +179,14 @@ class Propagation {
     front_.assign(1, start);
     found_.labels[start] = label;
     for (std::size_t next = 0; next < front_.size(); ++next) {
-      for (const HalfEdgeId h : mesh_.sides(front_[next])) {
-        const FaceId f = mesh_.face(Mesh::opposite(h));
-        if (f == no_id || !passes[f] || found_.labels[f] != unassigned ||
-            lines_.is_sharp(Mesh::edge_of(h)))
-          continue;
+      for (const FaceId f : ways_[front_[next]]) {
+        if (f == no_id || found_.labels[f] != unassigned) continue;
         found_.labels[f] = label;
         front_.push_back(f);
       }
     }
+    for (const FaceId f : front_)
+      for (const VertexId v : mesh_.triangle(f)) --open_faces_[v];
     if (front_.size() < options.min_faces) {
       for (const FaceId f : front_) {
         found_.labels[f] = unassigned;
@@ -182,7 +202,7 @@ class Propagation {
     double sum = 0.0;
     std::size_t count = 0;
     for (const FaceId f : front_) {
-      partition.area += face_area(mesh_, f);
+      partition.area += areas_[f];
       for (const VertexId v : mesh_.triangle(f))
         if (rule_.is_regular(v)) {
           sum += values_[v];
@@ -198,7 +218,14 @@ class Propagation {
   const SharpLines& lines_;
   const std::vector<bool>& taken_;
   FrontRule rule_;
-  std::vector<VertexId> seeds_;  // regular vertices by decreasing value
+  struct Seed {
+    double value;
+    VertexId vertex;
+  };
+  std::vector<Seed> seeds_;                  // regular vertices by decreasing value
+  std::vector<double> areas_;                // of the faces
+  std::vector<std::array<FaceId, 3>> ways_;  // to the faces that pass across edges not sharp
+  std::vector<std::uint32_t> open_faces_;    // round a vertex: they pass, and no front came yet
   std::vector<FaceId> front_;
   FoundPartitions found_;
 };
