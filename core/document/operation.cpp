@@ -148,7 +148,13 @@ Result<Document> apply(const Document& document, const Operation& operation,
 std::string describe(const Operation& operation) {
   const OperationKind* kind = find_operation(operation.name);
   if (!kind) return operation.name;
-  return kind->words ? kind->words(operation.parameters) : std::string(kind->title);
+  if (!kind->words) return std::string(kind->title);
+  // Rows of a session that opened from its snapshot were not run here: they may hold anything.
+  try {
+    return kind->words(operation.parameters);
+  } catch (const nlohmann::json::exception&) {
+    return std::string(kind->title);
+  }
 }
 
 }  // namespace arris

@@ -97,7 +97,8 @@ Result<Document> apply(const Document& document, const Operation& operation,
 Result<Performed> perform(const Document& document, const Operation& operation,
                           const Context& context = {});
 
-/// One line for the history: "Find sharp lines, 24.0°".
+/// One line for the history: "Find sharp lines, 24.0°"; its title alone where the parameters are
+/// none that it takes.
 std::string describe(const Operation& operation);
 
 }  // namespace arris

@@ -135,6 +135,26 @@ TEST_F(Parameters, ChoicesTakeTheirKeysAndNothingElse) {
 }
 
 // The command line gives the options of all steps to one command.
+// Found by fuzzing: rows of a session are read before anything judges their parameters.
+TEST_F(Parameters, OfAnyKindLeaveAnOperationItsWords) {
+  const std::vector<json> odd{nullptr,        true,
+                              -1.5,           "x",
+                              json::array(),  json::object(),
+                              {{1, "y"}, {}}, {{"vertices", 3}},
+                              1.0e300,        {nullptr, {nullptr}}};
+  for (const OperationKind& kind : operation_table()) {
+    EXPECT_FALSE(describe({std::string(kind.name), json::object()}).empty()) << kind.name;
+    for (const Parameter& parameter : kind.parameters)
+      for (const json& value : odd) {
+        json parameters = json::object();
+        if (const auto resolved = kind.resolve(part, json::object())) parameters = *resolved;
+        parameters[std::string(parameter.name)] = value;
+        EXPECT_FALSE(describe({std::string(kind.name), parameters}).empty())
+            << kind.name << " " << parameters.dump();
+      }
+  }
+}
+
 TEST_F(Parameters, OfStepsHaveOptionsOfTheirOwn) {
   std::set<std::string_view> options;
   for (const ChainStep& step : chain_steps)

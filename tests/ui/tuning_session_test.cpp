@@ -268,6 +268,33 @@ TEST_F(TuningSession, FromTheScanToLinesAndPartitionsAndAllTheWayBack) {
   EXPECT_EQ(QImage(picture).size(), QSize(800, 600));
 }
 
+TEST_F(TuningSession, ADragThatChangesOnlyLinesKeepsThePictureOfTheSurface) {
+  open_sample();
+  run_both();
+  window->set_field(Field::normal_jump);
+  ASSERT_TRUE(comes_to_rest());
+  HistogramPanel& histogram = window->histogram();
+  const QPoint handle = histogram.handle_position(0);
+  const auto angle = [&] {
+    return shown().step("find_sharp_lines")->parameters["angle"].get<double>();
+  };
+  const auto move = [&](int by) {
+    const double before = angle();
+    QTest::mouseMove(&histogram, handle + QPoint(by, 0));
+    return QTest::qWaitFor([&] { return angle() != before; }, patience) && comes_to_rest();
+  };
+  QTest::mousePress(&histogram, Qt::LeftButton, {}, handle);
+  // The first move greys the partitions, as those of other lines.
+  ASSERT_TRUE(move(6));
+  const int drawn = window->view().surfaces_drawn();
+  const QImage before = window->view().grabFramebuffer();
+  for (int by = 12; by <= 60; by += 12) ASSERT_TRUE(move(by));
+  EXPECT_EQ(window->view().surfaces_drawn(), drawn);
+  EXPECT_NE(window->view().grabFramebuffer(), before) << "the lines follow";
+  QTest::keyClick(&histogram, Qt::Key_Escape);
+  QTest::mouseRelease(&histogram, Qt::LeftButton, {}, handle);
+}
+
 TEST_F(TuningSession, ActionsThatCannotBeDoneSayWhy) {
   open_sample();
   run_both();

@@ -138,6 +138,7 @@ void GlCanvas::draw(const Frame& frame) {
     clock.start();
     render(true, false);
     gl_->glFinish();
+    ++surfaces_drawn_;
     // Orbiting draws and does not upload; to a graphics card that takes the longer time of the two.
     if (!frame.coarse && (software_ || !uploads))
       surface_time_ = static_cast<double>(clock.nsecsElapsed()) * 1e-6;

@@ -52,6 +52,8 @@ class GlCanvas {
   void draw_once(const Frame& frame);
   /// Milliseconds that it took to draw the whole surface; 0: not known yet.
   double surface_time() const { return surface_time_; }
+  /// Frames so far for which the surface was drawn, not taken from the kept picture.
+  int surfaces_drawn() const { return surfaces_drawn_; }
 
   /// A picture to lay over the part, premultiplied; `at`: of its top left corner, device pixels.
   struct Layer {
@@ -84,6 +86,7 @@ class GlCanvas {
   };
   std::vector<Texture> textures_;  // of the layers
   double surface_time_ = 0.0;
+  int surfaces_drawn_ = 0;
   bool software_ = false;
   QSize size_;
 

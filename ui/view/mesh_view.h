@@ -189,6 +189,7 @@ class MeshView : public QOpenGLWidget {
   void look_from(StandardView view);  ///< z is up; fits the part.
   Point towards_viewer() const;
   const ViewCamera& camera() const;
+  int surfaces_drawn() const;  ///< Frames so far that did not keep the picture of the surface.
   QSizeF extent_seen() const;  ///< Of the whole part across and up the view, in its unit.
   void set_camera(const ViewCamera& camera);  ///< Its height within what the part allows.
   /// As a cap that is held like the part moves it: shares of the view a second, radians a second.

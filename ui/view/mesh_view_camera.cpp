@@ -113,6 +113,8 @@ Point MeshView::towards_viewer() const { return impl_->camera.towards_viewer(); 
 
 const ViewCamera& MeshView::camera() const { return impl_->camera; }
 
+int MeshView::surfaces_drawn() const { return impl_->canvas.surfaces_drawn(); }
+
 QSizeF MeshView::extent_seen() const {
   if (!impl_->mesh || impl_->mesh->face_count() == 0) return {0.0, 0.0};
   const Eigen::Matrix3d to_view = impl_->camera.axes().transpose();

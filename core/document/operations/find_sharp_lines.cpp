@@ -49,7 +49,7 @@ nlohmann::json upgrade_lines(int, nlohmann::json parameters) {
 
 std::string words_of_lines(const nlohmann::json& parameters) {
   if (!parameters.contains("angle")) return "Find sharp lines";
-  return "Find sharp lines, " + degrees_in_words(parameters["angle"].get<double>());
+  return "Find sharp lines, " + degrees_in_words(parameters.at("angle").get<double>());
 }
 
 std::string outcome_of_lines(const Document& document) {

@@ -78,7 +78,7 @@ Result<Document> apply_simplify(const Document& document, const nlohmann::json& 
 
 std::string words_of_simplify(const nlohmann::json& parameters) {
   if (!parameters.contains("error_zone")) return "Simplify";
-  return "Simplify within " + number_text(parameters["error_zone"].get<double>(), 3);
+  return "Simplify within " + number_text(parameters.at("error_zone").get<double>(), 3);
 }
 
 Result<Document> apply_swap(const Document& document, const nlohmann::json& parameters,

@@ -243,7 +243,7 @@ json upgrade_remove_small(int, json parameters) {
 
 std::string words_of_remove_small(const json& parameters) {
   if (!parameters.contains("faces")) return "Remove small partitions";
-  const std::string under = "partitions under " + parameters["faces"].dump() + " faces";
+  const std::string under = "partitions under " + parameters.at("faces").dump() + " faces";
   return parameters.value("fill", false) ? "Give " + under + " to their neighbours"
                                          : "Remove " + under;
 }

@@ -68,7 +68,7 @@ Result<TreatmentOutcome> extend_line(Ground& ground, const json& parameters, Rou
 std::string words_of_line_extend(const json& parameters) {
   return of_line("Extend", parameters) +
          (parameters.contains("angle")
-              ? " down to " + degrees_in_words(parameters["angle"].get<double>())
+              ? " down to " + degrees_in_words(parameters.at("angle").get<double>())
               : "");
 }
 
@@ -132,7 +132,7 @@ Result<TreatmentOutcome> merge(Ground& ground, const json& parameters, Round rou
 
 std::string words_of_merge(const json& parameters) {
   if (!parameters.contains("a") || !parameters.contains("b")) return "Merge lines";
-  return "Merge lines " + parameters["a"].dump() + " and " + parameters["b"].dump();
+  return "Merge lines " + parameters.at("a").dump() + " and " + parameters.at("b").dump();
 }
 
 Result<TreatmentOutcome> draw(Ground& ground, const json& parameters, Round round) {
@@ -176,7 +176,7 @@ std::string words_of_draw(const json& parameters) {
     return paths->size() == 1 ? std::string("Draw a line")
                               : "Draw " + counted(paths->size(), "line", "lines");
   return parameters.contains("vertices")
-             ? "Draw a line through " + counted(parameters["vertices"].size(), "point", "points")
+             ? "Draw a line through " + counted(parameters.at("vertices").size(), "point", "points")
              : "Draw a line";
 }
 
@@ -233,7 +233,7 @@ std::string words_of_line_recompute(const json& parameters) {
   const std::string what = parameters.contains("region") ? "Find lines again in a region"
                                                          : of_line("Recompute", parameters);
   if (!parameters.contains("angle")) return what;
-  return what + ", " + degrees_in_words(parameters["angle"].get<double>());
+  return what + ", " + degrees_in_words(parameters.at("angle").get<double>());
 }
 
 // What rows have in common.

@@ -357,8 +357,8 @@ Result<TreatmentOutcome> paint(Ground& ground, const json& parameters, Round rou
 
 std::string words_of_paint(const json& parameters) {
   if (!parameters.contains("partition")) return "Paint partitions";
-  return parameters["partition"] == 0u ? std::string("Paint out of partitions")
-                                       : of_partition("Paint into", parameters);
+  return parameters.at("partition") == 0u ? std::string("Paint out of partitions")
+                                          : of_partition("Paint into", parameters);
 }
 
 Result<TreatmentOutcome> smooth(Ground& ground, const json& parameters, Round round) {

@@ -303,8 +303,8 @@ BrushedRegion region_of(const nlohmann::json& given) {
   return {given.at("vertices").get<Path>(), given.at("radius")};
 }
 CurvatureInterval interval_of(const nlohmann::json& given) {
-  return {given[0],
-          given[1].is_null() ? std::numeric_limits<double>::infinity() : given[1].get<double>()};
+  const nlohmann::json& max = given.at(1);
+  return {given.at(0), max.is_null() ? std::numeric_limits<double>::infinity() : max.get<double>()};
 }
 
 Result<LinePtr> find_line(const Ground& ground, std::uint32_t id, const Path& anchor, Round round,
