@@ -205,7 +205,7 @@ Result<TreatmentOutcome> fill_unassigned(Ground& ground, const json& parameters,
 }
 
 std::string words_of_fill(const json& parameters) {
-  const std::string what = "Give unassigned areas to their neighbours";
+  std::string what = "Give unassigned areas to their neighbours";
   if (!parameters.contains("faces") || parameters["faces"].get<std::int64_t>() >= most_faces)
     return what;
   return what + ", up to " + parameters["faces"].dump() + " faces";
