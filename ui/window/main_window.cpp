@@ -15,6 +15,7 @@
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 
 #include "core/base/vector_state.h"
@@ -278,19 +279,27 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 }
 
 void MainWindow::give_view_room(int rounds) {
-  QList<QDockWidget*> docks;  // one of each side: those tabbed with it go with it
+  QList<QDockWidget*> docks;  // one of each side: the others there go with it
   QList<int> widths, spare;
-  for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea})
-    for (QDockWidget* dock : findChildren<QDockWidget*>())
-      if (dockWidgetArea(dock) == area && !dock->isFloating() && !dock->visibleRegion().isEmpty()) {
-        docks << dock;
-        widths << dock->width();
-        int least = dock->minimumSizeHint().width();
-        for (const QDockWidget* tab : tabifiedDockWidgets(dock))
-          least = std::max(least, tab->minimumSizeHint().width());
-        spare << std::max(0, dock->width() - least);
-        break;
-      }
+  for (const Qt::DockWidgetArea area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea}) {
+    QDockWidget* seen = nullptr;
+    QStringList titles;
+    int least = 0;
+    for (QDockWidget* dock : findChildren<QDockWidget*>()) {
+      if (dockWidgetArea(dock) != area || dock->isFloating() || dock->isHidden()) continue;
+      titles << dock->windowTitle();
+      least = std::max(least, dock->minimumSizeHint().width());
+      if (!seen && !dock->visibleRegion().isEmpty()) seen = dock;
+    }
+    if (!seen) continue;
+    // The names of tabs stay legible.
+    for (const QTabBar* bar : findChildren<QTabBar*>(Qt::FindDirectChildrenOnly))
+      if (bar->count() > 0 && titles.contains(bar->tabText(0)))
+        least = std::max(least, bar->sizeHint().width());
+    docks << seen;
+    widths << seen->width();
+    spare << std::max(0, seen->width() - least);
+  }
   const int all = std::accumulate(spare.begin(), spare.end(), 0);
   const int missing = (width() + 1) / 2 - centralWidget()->width();
   if (missing <= 0 || all == 0) return;
