@@ -61,6 +61,8 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
   pixels_ = new QLabel(this);
   pixels_->setObjectName("picture_pixels");
   pixels_->setWordWrap(true);
+  pixels_->setAlignment(Qt::AlignTop);
+  pixels_->setMinimumHeight(3 * fontMetrics().lineSpacing());  // that the part does not fit
   keep_proportion_ = new QCheckBox(tr("Proportion of the view"), this);
   keep_proportion_->setChecked(true);
   scalar_bar_ = new QCheckBox(tr("Scalar bar"), this);
@@ -90,7 +92,7 @@ PictureDialog::PictureDialog(const PictureOptions& options, const Part& part, QW
   form->addRow(tr("Height"), height_);
   form->addRow(tr("Resolution"), dots_);
   form->addRow(tr("Scale"), scale_);
-  form->addRow(QString(), pixels_);
+  form->addRow(pixels_);
   form->addRow(QString(), keep_proportion_);
   form->addRow(tr("Ground"), background_);
   form->addRow(QString(), scalar_bar_);
